@@ -1,0 +1,216 @@
+"""Stage 5: extract the edge points of every slice with a 2D alpha shape (paper, section 4.6)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from sketchloft.alpha_shape import AlphaComplex, alpha_complex
+from sketchloft.cloud import Floats
+from sketchloft.errors import StageError, UsageError
+from sketchloft.outer_contour import Contour, outer_contour
+from sketchloft.probe_radius import small_probe_radius
+from sketchloft.ring import ring_centre, ring_depth
+from sketchloft.work_points import WorkedSlice
+
+__all__ = ["EdgePoints", "EdgePointsParams", "edge_points"]
+
+STAGE = "edge points"
+WINDOW = 2
+"""Slices on either side that decide together with a slice whether its section is convex."""
+FEWEST_SHARE = 0.5
+"""A contour that surrounds a smaller share of the slice's points has lost the section."""
+GAP = 0.8
+"""Empty area along a contour per edge point and point density, for a small probe; 1 for a hull (Efron)."""
+DEPTH_SAMPLE = 500
+"""Points and triangles of a slice that are asked how deep they lie."""
+SKIN = 0.6
+"""Points less than this share as deep within their contours as evenly filled ones are form a skin."""
+
+
+@dataclass(frozen=True)
+class EdgePointsParams:
+    """How the edge points are found.
+
+    Parameters
+    ----------
+    probe_radius : "auto", float or tuple of float
+        Radius of the probe that the alpha shape is rolled around with, in the unit of the cloud: chosen
+        by rule, one for all slices, or one for each. Infinity gives the convex hull.
+    """
+
+    probe_radius: Literal["auto"] | float | tuple[float, ...] = "auto"
+
+
+@dataclass(frozen=True)
+class EdgePoints:
+    """The ordered edge points of one slice.
+
+    Parameters
+    ----------
+    height : float
+        Of the slice plane.
+    probe_radius : float
+    points : (m, 2) float array
+        The outer contour, counter-clockwise, the first point not repeated.
+    area : float
+        Area of the section that the points account for: that of the contour and, where the cloud fills
+        the section, of the empty strip to be expected between the outermost points and the wall.
+    left_out : int
+        Number of other contours in the slice: holes and islands.
+    """
+
+    height: float
+    probe_radius: float
+    points: Floats
+    area: float
+    left_out: int
+
+    @property
+    def centre(self) -> Floats:
+        """(2,) centroid of the area that the contour encloses."""
+        return ring_centre(self.points)
+
+
+def edge_points(slices: Sequence[WorkedSlice], params: EdgePointsParams) -> tuple[EdgePoints, ...]:
+    """Extract the outer contour of every slice.
+
+    Parameters
+    ----------
+    slices : sequence of WorkedSlice
+    params : EdgePointsParams
+
+    Returns
+    -------
+    tuple of EdgePoints
+
+    Raises
+    ------
+    StageError
+        If the points of a slice are on a line, or a probe radius is so small that nothing stays.
+    UsageError
+        If the number of radii is not the number of slices, or a radius is not positive.
+
+    Notes
+    -----
+    The automatic probe radius is the smallest that is not expected to fall into the section
+    (`small_probe_radius`), or infinite where the section is convex. Convexity is judged by area: by
+    Efron's identity a convex section that holds n points, N of them on the hull of area A, has an area of
+    about A n / (n - N). Where that is no larger than what the small probe accounts for, by twice the
+    standard error over a slice and its four neighbours, nothing speaks against the hull, and a hull
+    follows the wall more evenly.
+
+    References
+    ----------
+    B. Efron, The convex hull of a random set of points, Biometrika 52, 1965.
+    """
+    shapes = [_triangulated(worked.points, index) for index, worked in enumerate(slices)]
+    if params.probe_radius == "auto":
+        radii, contours = _automatic(shapes)
+    else:
+        radii = _given(params.probe_radius, len(slices))
+        contours = [_contour(s, r, i) for i, (s, r) in enumerate(zip(shapes, radii, strict=True))]
+    filled = _is_filled(shapes, contours)
+    return tuple(
+        EdgePoints(
+            worked.height,
+            float(radius),
+            contour.points,
+            _accounted(contour, len(worked.points), float(radius)) if filled else contour.area,
+            contour.left_out,
+        )
+        for worked, radius, contour in zip(slices, radii, contours, strict=True)
+    )
+
+
+def _triangulated(points: Floats, index: int) -> AlphaComplex:
+    from scipy.spatial import QhullError  # noqa: PLC0415  loaded with the triangulation anyway
+
+    try:
+        return alpha_complex(points)
+    except QhullError:
+        raise StageError(
+            f"the {len(points)} points of the slice lie on one line, a contour needs an area; use more "
+            "points per slice or another slicing direction",
+            stage=STAGE,
+            slice_index=index,
+        ) from None
+
+
+def _given(radius: float | tuple[float, ...], count: int) -> Floats:
+    radii = np.atleast_1d(np.asarray(radius, dtype=np.float64))
+    if len(radii) not in (1, count):
+        raise UsageError(
+            f"probe radius: found {len(radii)} radii for {count} slices; give one for all or one per slice"
+        )
+    if not (radii > 0).all():
+        raise UsageError(f"probe radius: found {radii.min():g}, expected a positive number or 'inf'")
+    return np.broadcast_to(radii, count)
+
+
+def _automatic(shapes: Sequence[AlphaComplex]) -> tuple[Floats, list[Contour]]:
+    found = [_smallest(shape, index) for index, shape in enumerate(shapes)]
+    small, close = np.array([radius for radius, _ in found]), [contour for _, contour in found]
+    hulls = [_contour(shape, np.inf, index) for index, shape in enumerate(shapes)]
+    count = np.array([len(shape.points) for shape in shapes])
+    on_close = np.array([len(contour.points) for contour in close])
+    on_hull = np.array([len(contour.points) for contour in hulls])
+    area = np.array([contour.area for contour in close])
+    excess = np.array([contour.area for contour in hulls]) * count / (count - on_hull).clip(1)
+    excess -= area * count / (count - on_close).clip(1)
+    variance = area**2 * on_close / count**2
+    near = np.abs(np.subtract.outer(np.arange(len(shapes)), np.arange(len(shapes)))) <= WINDOW
+    convex = near @ excess < 2 * np.sqrt(near @ variance)
+    contours = [
+        hull if all_round else inner for hull, inner, all_round in zip(hulls, close, convex, strict=True)
+    ]
+    return np.where(convex, np.inf, small), contours
+
+
+def _smallest(shape: AlphaComplex, index: int) -> tuple[float, Contour]:
+    """Small probe radius, doubled until the largest part of the alpha shape holds most of the points."""
+    radius = small_probe_radius(shape)
+    limit = float(shape.radii[np.isfinite(shape.radii)].max())
+    while radius < limit:
+        found = outer_contour(shape, radius)
+        if found is not None and found.share >= FEWEST_SHARE:
+            return radius, found
+        radius *= 2
+    return limit, _contour(shape, limit, index)
+
+
+def _contour(shape: AlphaComplex, radius: float, index: int) -> Contour:
+    found = outer_contour(shape, float(radius))
+    if found is None or found.share < FEWEST_SHARE:
+        share = 0.0 if found is None else found.share
+        raise StageError(
+            f"a probe of radius {radius:.4g} leaves {share:.0%} of the {len(shape.points)} points in one "
+            f"piece, expected at least {FEWEST_SHARE:.0%}; use a larger radius, "
+            f"{small_probe_radius(shape):.4g} say, or 'auto'",
+            stage=STAGE,
+            slice_index=index,
+        )
+    return found
+
+
+def _accounted(contour: Contour, count: int, radius: float) -> float:
+    """Area of the contour and of the empty strip along it: each edge point stands for its share of a gap."""
+    taken = (1.0 if np.isinf(radius) else GAP) * len(contour.points)
+    return contour.area * count / (count - taken) if taken < count / 2 else contour.area
+
+
+def _is_filled(shapes: Sequence[AlphaComplex], contours: Sequence[Contour]) -> bool:
+    """Whether points lie as deep within the contours as they do where they fill them evenly."""
+    depth, even = np.zeros(len(shapes)), np.zeros(len(shapes))
+    for i, (shape, contour) in enumerate(zip(shapes, contours, strict=True)):
+        triangles = slice(None, None, -(-len(shape.simplices) // DEPTH_SAMPLE))
+        corners = shape.points[shape.simplices[triangles]]
+        inside = ring_depth(corners.mean(axis=1), contour.points).clip(0)
+        weight = shape.volumes[triangles]
+        even[i] = (inside * weight).sum() / weight[inside > 0].sum()
+        points = shape.points[:: -(-len(shape.points) // DEPTH_SAMPLE)]
+        depth[i] = ring_depth(points, contour.points).clip(0).mean()
+    return bool(depth.sum() > SKIN * even.sum())

@@ -1,0 +1,195 @@
+"""The pipeline: a cloud goes in, a valid solid and everything found on the way comes out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from sketchloft.bodies import BodiesParams, separate_bodies
+from sketchloft.cloud import MIN_POINTS, CleanCloud, Floats, PointCloud, clean
+from sketchloft.direction import Direction, DirectionParams, slicing_direction
+from sketchloft.edge_points import EdgePoints, EdgePointsParams, edge_points
+from sketchloft.errors import StageError
+from sketchloft.frame import Frame, frame_along
+from sketchloft.loft import LoftParams, Section, loft
+from sketchloft.shapes.choice import ShapesParams
+from sketchloft.shapes.recognise import recognise
+from sketchloft.slice_planes import SlicePlanes, SlicePlanesParams, slice_planes
+from sketchloft.surface import SkinSurface
+from sketchloft.work_points import WorkedSlice, WorkPointsParams, follow_slope, work_points
+
+if TYPE_CHECKING:  # the kernel takes most of a second to load
+    from sketchloft.brep.facts import SolidFacts
+    from sketchloft.brep.solid import Solid
+
+__all__ = ["BodyModel", "Params", "Progress", "Reconstruction", "reconstruct"]
+
+Progress = Callable[[str], None]
+"""Called with the name of each stage when it begins."""
+
+
+@dataclass(frozen=True)
+class Params:
+    """The parameters of all stages, in the order of the stages.
+
+    Parameters
+    ----------
+    bodies : BodiesParams
+    direction : DirectionParams
+    slice_planes : SlicePlanesParams
+    work_points : WorkPointsParams
+    edge_points : EdgePointsParams
+    shapes : ShapesParams
+    loft : LoftParams
+    """
+
+    bodies: BodiesParams = field(default_factory=BodiesParams)
+    direction: DirectionParams = field(default_factory=DirectionParams)
+    slice_planes: SlicePlanesParams = field(default_factory=SlicePlanesParams)
+    work_points: WorkPointsParams = field(default_factory=WorkPointsParams)
+    edge_points: EdgePointsParams = field(default_factory=EdgePointsParams)
+    shapes: ShapesParams = field(default_factory=ShapesParams)
+    loft: LoftParams = field(default_factory=LoftParams)
+
+
+@dataclass(frozen=True)
+class BodyModel:
+    """One body of the cloud, with the result of every stage.
+
+    Parameters
+    ----------
+    name : str
+    points : (n, 3) float array
+        In the frame of the slicing direction, about the centre of the cloud.
+    direction : Direction
+    frame : Frame
+        From the axes of the cloud to those of the body.
+    planes : SlicePlanes
+    worked : tuple of WorkedSlice
+    edges : tuple of EdgePoints
+    sections : tuple of Section
+    surface : SkinSurface
+        In the frame of the slicing direction.
+    solid : Solid
+        Where the cloud is, in its unit.
+    facts : SolidFacts
+        What the checks of the solid found.
+    """
+
+    name: str
+    points: Floats
+    direction: Direction
+    frame: Frame
+    planes: SlicePlanes
+    worked: tuple[WorkedSlice, ...]
+    edges: tuple[EdgePoints, ...]
+    sections: tuple[Section, ...]
+    surface: SkinSurface
+    solid: Solid
+    facts: SolidFacts
+
+
+@dataclass(frozen=True)
+class Reconstruction:
+    """What became of a cloud.
+
+    Parameters
+    ----------
+    cloud : CleanCloud
+    params : Params
+    bodies : tuple of BodyModel
+        The largest first.
+    """
+
+    cloud: CleanCloud
+    params: Params
+    bodies: tuple[BodyModel, ...]
+
+
+def reconstruct(
+    cloud: PointCloud, params: Params | None = None, progress: Progress = lambda _: None
+) -> Reconstruction:
+    """Turn a cloud into solids by slicing and lofting (paper, section 4).
+
+    Parameters
+    ----------
+    cloud : PointCloud
+    params : Params, optional
+    progress : callable, optional
+        Called with the name of each stage when it begins.
+
+    Returns
+    -------
+    Reconstruction
+
+    Raises
+    ------
+    CloudError
+        If the points cannot describe a solid.
+    StageError
+        If a stage cannot go on; the message names it, and the slice.
+    ModelError
+        If the solid fails a check.
+
+    Examples
+    --------
+    >>> from sketchloft import Params, reconstruct
+    >>> from sketchloft.sample import GOALS, sample_goal
+    >>> result = reconstruct(sample_goal(GOALS["cylinder"], 4000, seed=1))
+    >>> len(result.bodies), result.bodies[0].facts.faces
+    (1, {'BSplineSurface': 1, 'Plane': 2})
+    """
+    params = params or Params()
+    progress("input")
+    cleaned = clean(cloud)
+    progress("bodies")
+    parts = separate_bodies(cleaned.points, params.bodies)
+    names = [cloud.name] if len(parts) == 1 else [f"{cloud.name}-{i + 1}" for i in range(len(parts))]
+    bodies = [
+        _body(name, cleaned.points[part], cleaned.centre, params, progress)
+        for name, part in zip(names, parts, strict=True)
+    ]
+    return Reconstruction(cleaned, params, tuple(bodies))
+
+
+def _body(name: str, points: Floats, centre: Floats, params: Params, progress: Progress) -> BodyModel:
+    if len(points) < MIN_POINTS:
+        raise StageError(
+            f"{name} has {len(points)} points, a body needs at least {MIN_POINTS}; ask for fewer bodies",
+            stage="bodies",
+        )
+    progress("direction")
+    middle = points.mean(axis=0)
+    direction = slicing_direction(points - middle, params.direction)
+    frame = frame_along(direction.vector, points - middle)
+    local = frame.to_local(points)
+    progress("slice planes")
+    planes = slice_planes(local, params.slice_planes)
+    worked, edges = _contours(local, planes.heights, params, progress)
+    progress("shapes")
+    shapes = recognise(edges, planes.key_heights, params.shapes)
+    sections = tuple(Section(edge.height, shape) for edge, shape in zip(edges, shapes, strict=True))
+    progress("loft")
+    surface = loft(sections, params.loft)
+    progress("solid")
+    from sketchloft.brep.build import built  # noqa: PLC0415  the kernel takes most of a second to load
+
+    solid, facts = built(surface, centre, frame.axes)
+    return BodyModel(name, local, direction, frame, planes, worked, edges, sections, surface, solid, facts)
+
+
+def _contours(
+    points: Floats, heights: Floats, params: Params, progress: Progress
+) -> tuple[tuple[WorkedSlice, ...], tuple[EdgePoints, ...]]:
+    progress("work points")
+    worked = work_points(points, heights)
+    progress("edge points")
+    edges = edge_points(worked, params.edge_points)
+    if params.work_points.working == "parallel":
+        return worked, edges
+    centres, areas = np.array([edge.centre for edge in edges]), np.array([edge.area for edge in edges])
+    worked = work_points(follow_slope(points, heights, centres, areas), heights)
+    return worked, edge_points(worked, params.edge_points)

@@ -1,0 +1,280 @@
+"""Stage 3: locate the slice planes at the extrema of the distance to the central axis (paper, 4.4)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from sketchloft.alpha_shape import alpha_complex, boundary_facets, components
+from sketchloft.cloud import Floats, Ints
+from sketchloft.errors import StageError
+from sketchloft.probe_radius import small_probe_radius
+
+__all__ = ["AxisDistance", "SlicePlanes", "SlicePlanesParams", "slice_planes", "surface_points"]
+
+STAGE = "slice planes"
+SAMPLE = 20_000
+"""Points that the 3D alpha shape is made of; it only has to show the overall shape."""
+BINS_PER_SLICE = 2
+OUTER = 0.95
+"""Quantile of the distances in a bin that stands for the section's reach: flat ends and the inner
+parts of a section hardly lower it, single stray points do not raise it."""
+LEVEL = 0.04
+"""Differences of the profile below this share of its greatest value are no extrema."""
+JUMP = 3.0
+LEDGE = 0.02
+"""A step is bracketed by two planes, this share of the mean slice thickness above and below it."""
+MERGE = 10
+"""An extremum within this many ledges of a step is the step."""
+FEWEST = 12
+"""A slice with fewer points than this loses its plane to its neighbour."""
+
+
+@dataclass(frozen=True)
+class SlicePlanesParams:
+    """How the slice planes are located.
+
+    Parameters
+    ----------
+    per_slice : "auto" or int
+        About how many points a slice holds; "auto" is 500 for 10,000 points and goes with the power
+        2/3 of their number, so that slices get thinner as fast as contours get finer.
+    central_axis : {"mean", "least-squares"}
+        The axis through the mean of the surface points, or of the circle that fits them best.
+    """
+
+    per_slice: Literal["auto"] | int = "auto"
+    central_axis: Literal["mean", "least-squares"] = "mean"
+
+
+@dataclass(frozen=True)
+class AxisDistance:
+    """Distance to the central axis along it.
+
+    Parameters
+    ----------
+    axis : (2,) float array
+        Where the central axis crosses the slice planes.
+    points : (m, 3) float array
+        The surface points, found by the 3D alpha shape.
+    distance : (m,) float array
+        Their distance to the axis.
+    heights, profile : (b,) float arrays
+        Middle of every bin of heights, and the distance that its section reaches.
+    """
+
+    axis: Floats
+    points: Floats
+    distance: Floats
+    heights: Floats
+    profile: Floats
+
+
+@dataclass(frozen=True)
+class SlicePlanes:
+    """Where the body is sliced.
+
+    Parameters
+    ----------
+    heights : (k,) float array
+        Rising heights of the planes; the first and the last are the ends of the body.
+    key_heights : (e,) float array
+        Those that are ends or local extrema of the distance.
+    axis_distance : AxisDistance
+        What they were located by.
+    """
+
+    heights: Floats
+    key_heights: Floats
+    axis_distance: AxisDistance
+
+
+def slice_planes(points: Floats, params: SlicePlanesParams) -> SlicePlanes:
+    """Locate the slice planes of a body.
+
+    Parameters
+    ----------
+    points : (n, 3) float array
+        In the frame of the slicing direction, in canonical order.
+    params : SlicePlanesParams
+
+    Returns
+    -------
+    SlicePlanes
+
+    Raises
+    ------
+    StageError
+        If fewer than two planes can be placed.
+
+    Notes
+    -----
+    The extrema are found iteratively: of all local extrema of the binned profile, the neighbouring
+    pair that differs least is removed, until every pair left differs by more than the scatter of
+    the bins explains. Each space between two extrema is then divided evenly, into as many slices
+    as its points allow. Where the profile is level nothing is left to remove and the slicing is even.
+    """
+    per_slice = _per_slice(len(points), params.per_slice)
+    found = _axis_distance(points, params.central_axis, BINS_PER_SLICE * len(points) // per_slice)
+    bottom, top = found.points[:, 2].min(), found.points[:, 2].max()
+    tolerance = _tolerance(found.profile)
+    inner = found.heights[_extrema(found.profile, tolerance)]
+    steps = np.array([_placed(step, points, found) for step in _steps(found.profile, tolerance)])
+    ledge = LEDGE * (top - bottom) / max(2, len(points) // per_slice)
+    inner = inner[(np.abs(inner[:, None] - steps) > MERGE * ledge).all(axis=1)] if len(steps) else inner
+    keys = np.sort(np.r_[bottom, inner, steps - ledge, steps + ledge, top])
+    height = np.sort(points[:, 2])
+    counts = np.diff(np.searchsorted(height, keys))
+    spaces = [
+        np.linspace(low, high, max(1, round(count / per_slice)) + 1)[:-1]
+        for low, high, count in zip(keys[:-1], keys[1:], counts, strict=True)
+    ]
+    heights = _without_thin_slices(np.r_[np.concatenate(spaces), top], height)
+    if len(heights) < 2:
+        raise StageError(
+            f"found {len(points)} points for slices of {per_slice}, expected at least two slices; lower "
+            "the points per slice",
+            stage=STAGE,
+        )
+    return SlicePlanes(heights, keys, found)
+
+
+def surface_points(points: Floats) -> Floats:
+    """Points that a small probe ball touches from outside (paper, section 4.4, step 2).
+
+    Parameters
+    ----------
+    points : (n, 3) float array
+        In canonical order; an even sample of 20,000 stands for a larger cloud.
+
+    Returns
+    -------
+    (m, 3) float array
+        Only of the largest connected part: stray points are no surface.
+    """
+    shape = alpha_complex(points[:: -(-len(points) // SAMPLE)])
+    kept = shape.inside(small_probe_radius(shape))
+    kept = kept[components(shape, kept) == 0]
+    return shape.points[np.unique(boundary_facets(shape, kept))]
+
+
+def _per_slice(count: int, asked: Literal["auto"] | int) -> int:
+    if asked == "auto":
+        return max(3 * FEWEST, round(500 * (count / 10_000) ** (2 / 3)))
+    if asked < FEWEST:
+        raise StageError(
+            f"found {asked} points per slice asked for, a contour needs at least {FEWEST}; ask for more",
+            stage=STAGE,
+        )
+    if asked > count / 2:
+        raise StageError(
+            f"found {asked} points per slice asked for, but the body has only {count} points and needs two "
+            "slices; ask for fewer",
+            stage=STAGE,
+        )
+    return asked
+
+
+def _axis_distance(points: Floats, rule: Literal["mean", "least-squares"], bins: int) -> AxisDistance:
+    surface = surface_points(points)
+    across, height = surface[:, :2], surface[:, 2]
+    axis = across.mean(axis=0) if rule == "mean" else _circle_centre(across)
+    distance = np.linalg.norm(across - axis, axis=1)
+    edges = np.linspace(height.min(), height.max(), max(8, bins) + 1)
+    order = np.argsort(height, kind="stable")
+    parts = [p for p in np.split(order, np.searchsorted(height[order], edges[1:-1])) if len(p)]
+    heights = np.array([height[part].mean() for part in parts])
+    profile = np.array([np.quantile(distance[part], OUTER) for part in parts])
+    return AxisDistance(axis, surface, distance, heights, profile)
+
+
+def _circle_centre(across: Floats) -> Floats:
+    """Centre of the circle with the least algebraic error (Kåsa 1976)."""
+    middle = across.mean(axis=0)
+    local = across - middle
+    design = np.c_[2 * local, np.ones(len(local))]
+    solution = np.linalg.lstsq(design, np.einsum("ij,ij->i", local, local), rcond=None)[0]
+    return middle + solution[:2]
+
+
+def _tolerance(profile: Floats) -> float:
+    """Difference that chance alone makes between two bins, judged by the second differences."""
+    sigma = 1.4826 * float(np.median(np.abs(np.diff(profile, 2)))) / np.sqrt(6)
+    return max(4 * sigma, LEVEL * float(profile.max()))
+
+
+def _extrema(profile: Floats, tolerance: float) -> Ints:
+    """Indices of the inner extrema whose neighbours all differ by more than the tolerance."""
+    slope = np.sign(np.diff(profile))
+    turning = np.flatnonzero(slope[1:] * slope[:-1] < 0) + 1
+    chain = np.r_[0, turning, len(profile) - 1]
+    while len(chain) > 2:
+        step = np.abs(np.diff(profile[chain]))
+        weakest = int(np.argmin(step))
+        if step[weakest] > tolerance:
+            break
+        # An inner pair goes together, so that highs and lows still alternate; at the ends one goes.
+        drop = [weakest, weakest + 1]
+        chain = np.delete(chain, [i for i in drop if 0 < i < len(chain) - 1])
+    return chain[1:-1]
+
+
+def _steps(profile: Floats, tolerance: float) -> list[tuple[int, int]]:
+    """Pairs of bins, neighbours or next but one, between which the profile jumps.
+
+    A jump is three times what the profile changes on either side of it, over as many bins.
+    """
+    found: list[tuple[float, int, int]] = []
+    for width in (1, 2):
+        change = np.abs(profile[width:] - profile[:-width])
+        padded = np.r_[np.zeros(width), change, np.zeros(width)]
+        beside = np.maximum(padded[: len(change)], padded[2 * width :])
+        jumps = np.flatnonzero((change > 2 * tolerance) & (change > JUMP * beside))
+        found += [(-float(change[i]) / width, int(i), int(i) + width) for i in jumps]
+    steps: list[tuple[int, int]] = []
+    for _, low, high in sorted(found):
+        if all(high <= a or low >= b for a, b in steps):
+            steps.append((low, high))
+    return steps
+
+
+def _placed(step: tuple[int, int], points: Floats, found: AxisDistance) -> float:
+    """Height of a step: where the number of points beyond its ledge changes with the most evidence."""
+    low, high = step
+    ends = np.r_[points[:, 2].min(), (found.heights[1:] + found.heights[:-1]) / 2, points[:, 2].max()]
+    bottom, top = ends[max(low - 1, 0)], ends[min(high + 2, len(ends) - 1)]
+    inner, outer = np.sort(found.profile[[low, high]])
+    beyond = np.linalg.norm(points[:, :2] - found.axis, axis=1) > inner + (outer - inner) / 4
+    height = points[beyond, 2]
+    height = np.sort(height[(height > bottom) & (height < top)])
+    if found.profile[low] < found.profile[high]:
+        return -_upper_end(-height[::-1], -top, -bottom)
+    return _upper_end(height, bottom, top)
+
+
+def _upper_end(values: Floats, bottom: float, top: float) -> float:
+    """Where evenly spread values (m,) end within (bottom, top), two mean gaps beyond the last of them.
+
+    Between any two values the spread may end and a thinner one of stray points begin; the likelihood
+    of the counts on both sides decides.
+    """
+    count = np.arange(1, len(values) + 1)
+    rest = len(values) - count
+    below, above = values - bottom, np.maximum(top - values, 1e-12 * (top - bottom))
+    evidence = count * np.log(count / below) + rest * np.log(np.maximum(rest, 1) / above)
+    best = int(np.argmax(evidence))
+    gap = 2 * below[best] / count[best]
+    return float(min(values[best] + gap, values[best + 1] if rest[best] else top))
+
+
+def _without_thin_slices(heights: Floats, points: Floats) -> Floats:
+    """Take out inner planes until every slice holds enough points."""
+    while len(heights) > 2:
+        count = np.diff(np.r_[0, np.searchsorted(points, (heights[1:] + heights[:-1]) / 2), len(points)])
+        thin = int(np.argmin(count))
+        if count[thin] >= FEWEST:
+            break
+        heights = np.delete(heights, min(max(thin, 1), len(heights) - 2))
+    return heights

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -16,7 +17,7 @@ from sketchloft.brep.check import check_closed, check_solid
 from sketchloft.brep.explore import faces_of, vertices_of
 from sketchloft.brep.facts import solid_facts
 from sketchloft.brep.kernel import bspline_surface, skin_of
-from sketchloft.brep.patches import patches, sharp_columns
+from sketchloft.brep.patches import cut, part, sharp_columns, sharp_rows
 from sketchloft.brep.place import placed
 from sketchloft.brep.primitives import fuse
 from sketchloft.brep.sections import check_sections, section_volume
@@ -92,18 +93,37 @@ def test_sharp_edges_are_found_where_the_tangent_turns_and_only_there() -> None:
     assert sharp_columns(cylinder()) == []  # full knots, but smooth
     assert sharp_columns(prism(SQUARE)) == [0, 3, 6, 9]
     assert sharp_columns(prism(SQUARE, start=0.5)) == [3, 6, 9, 12]  # the seam is not sharp
+    assert sharp_rows(prism(SQUARE, np.array([1.0, 0.9, 0.8, 0.9]))) == [2]  # straight at row 1
+    assert sharp_rows(wavy(8, v_degree=1)) == [1, 2, 3, 4, 5, 6]
+    assert sharp_rows(wavy(8, v_degree=3)) == []
 
 
 @pytest.mark.parametrize("start", [0.0, 0.5])
 def test_patches_cover_the_skin_side_by_side(start: float) -> None:
-    skin = prism(SQUARE, np.array([1.0, 0.6]), start=start)
-    sides = patches(skin)
-    assert len(sides) == 4
-    for side, following in zip(sides, sides[1:] + sides[:1], strict=True):
-        assert np.array_equal(side.poles[:, -1], following.poles[:, 0])
-        assert side.u_knots[0] < side.u_knots[-1]
-        middle = evaluate(side, [(side.u_knots[0] + side.u_knots[-1]) / 2], [0.0])[0, 0]
-        assert np.abs(middle).max() == pytest.approx(0.5)
+    grid = cut(prism(SQUARE, np.array([1.0, 0.6, 0.9]), start=start))
+    assert grid.rows == [0, 1, 2]
+    assert len(grid.columns) == 2
+    for band, columns in enumerate(grid.columns):
+        assert len(columns) == 5
+        sides = [part(grid.skin, (band, band + 1), pair) for pair in pairwise(columns)]
+        for side, following in zip(sides, sides[1:] + sides[:1], strict=True):
+            assert np.array_equal(side.poles[:, -1], following.poles[:, 0])
+            at = np.linspace(side.u_knots[0], side.u_knots[-1], 5)
+            foot = evaluate(side, at, side.v_knots[:1])[0, :, :2]
+            assert np.abs(foot).max(axis=1) == pytest.approx(np.full(5, 0.5 if band == 0 else 0.3))
+
+
+def test_a_band_is_cut_along_only_where_its_own_sections_have_corners() -> None:
+    # A circle of four cubic arcs under a square with its corners at the same parameters.
+    k = 4 / 3 * (np.sqrt(2) - 1)
+    arc = np.array([1 + 0j, 1 + k * 1j, k + 1j])
+    circle = np.outer(1j ** np.arange(5), arc).ravel()[:13] * np.exp(-0.75j * np.pi)
+    skin = prism(SQUARE, np.ones(5))
+    poles = skin.poles.copy()
+    poles[:3, :, :2] = 0.6 * np.stack([circle.real, circle.imag], axis=1)
+    round_below = dataclasses.replace(skin, poles=poles)
+    facts = check_solid(loft_solid(round_below), round_below)
+    assert facts.faces == {"BSplineSurface": 1 + 4 + 4, "Plane": 2}
 
 
 # ---- lofts ----------------------------------------------------------------------------------
@@ -160,7 +180,8 @@ def test_normals_point_outwards_whichever_way_the_skin_runs(skin: SkinSurface) -
 
 def test_many_sections_loft_and_check() -> None:
     skin = wavy(400, 40)
-    assert check_solid(loft_solid(skin), skin).faces == {"BSplineSurface": 1, "Plane": 2}
+    facts = check_solid(loft_solid(skin), skin)
+    assert facts.volume == pytest.approx(section_volume(skin), rel=1e-9)
 
 
 @settings(deadline=None, max_examples=15)
@@ -252,8 +273,8 @@ def test_a_solid_of_two_shells_is_refused() -> None:
     first, second = loft_solid(prism(SQUARE)).shape, loft_solid(moved(prism(SQUARE), (3, 0, 0))).shape
     solid, build = TopoDS_Solid(), BRep_Builder()
     build.MakeSolid(solid)
-    for part in (first, second):
-        shell, shell_faces = TopoDS_Shell(), faces_of(part)
+    for shape in (first, second):
+        shell, shell_faces = TopoDS_Shell(), faces_of(shape)
         build.MakeShell(shell)
         for face in shell_faces:
             build.Add(shell, face)

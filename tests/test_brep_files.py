@@ -65,8 +65,8 @@ def test_step_holds_schema_products_solids_and_surfaces(tmp_path: Path) -> None:
     assert "FILE_SCHEMA(('AP242_MANAGED_MODEL_BASED_3D_ENGINEERING_MIM_LF" in text
     assert text.count("MANIFOLD_SOLID_BREP(") == 2
     assert text.count("= CLOSED_SHELL(") == 2
-    assert text.count("B_SPLINE_SURFACE_WITH_KNOTS(") == 1
-    assert text.count("= ADVANCED_FACE(") == 3 + 6
+    assert text.count("B_SPLINE_SURFACE_WITH_KNOTS(") == 7  # one a band
+    assert text.count("= ADVANCED_FACE(") == (7 + 2) + 6
     assert text.count("= PLANE(") >= 2 + 6
     names = re.findall(r"= PRODUCT\('((?:[^']|'')*)'", text)
     assert names[1] == "box"
@@ -319,10 +319,9 @@ def test_outputs_that_cannot_be_are_refused_before_anything_is_written(tmp_path:
         write_model(good, [])
 
 
-@pytest.mark.skipif(os.geteuid() == 0, reason="root may write everywhere")
-def test_a_folder_without_permission_is_refused(tmp_path: Path) -> None:
-    tmp_path.chmod(0o500)
-    with pytest.raises(OutputError, match="not writable"):
+def test_a_folder_without_permission_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(os, "access", lambda *_: False)  # root may write everywhere
+    with pytest.raises(OutputError, match="is not writable"):
         write_model(tmp_path / "model.step", bodies())
 
 

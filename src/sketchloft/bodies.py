@@ -8,9 +8,9 @@ from typing import Literal
 import numpy as np
 
 from sketchloft.cloud import Floats, Ints
-from sketchloft.errors import StageError
+from sketchloft.errors import StageError, UsageError
 
-__all__ = ["BodiesParams", "separate_bodies"]
+__all__ = ["BodiesParams", "parse_bodies", "separate_bodies"]
 
 MAX_BODIES = 10
 SAMPLE = 20_000
@@ -38,6 +38,21 @@ class BodiesParams:
     seed: int = 0
 
 
+def parse_bodies(text: str) -> Literal["auto"] | int:
+    """Read "auto" or a number of bodies.
+
+    Raises
+    ------
+    UsageError
+        If the text is neither, or the number is not 1 to 10.
+    """
+    if text == "auto":
+        return "auto"
+    if text.isdecimal() and 1 <= int(text) <= MAX_BODIES:
+        return int(text)
+    raise UsageError(f"bodies: found '{text}', expected auto or a number from 1 to {MAX_BODIES}")
+
+
 def separate_bodies(points: Floats, params: BodiesParams) -> tuple[Ints, ...]:
     """Separate a cloud into bodies.
 
@@ -63,12 +78,6 @@ def separate_bodies(points: Floats, params: BodiesParams) -> tuple[Ints, ...]:
     StageError
         If a number of bodies is asked for that k-means cannot fill.
     """
-    if params.bodies != "auto" and not 1 <= params.bodies <= MAX_BODIES:
-        raise StageError(
-            f"found {params.bodies} bodies asked for, expected 1 to {MAX_BODIES}; give a number in that "
-            "range or 'auto'",
-            stage="bodies",
-        )
     if params.bodies == 1:
         return (np.arange(len(points)),)
     # Canonical order is by distance from the centre: every k-th point is an even sample of it.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Literal
 
 import numpy as np
@@ -13,10 +14,12 @@ from sketchloft.cloud import Floats
 from sketchloft.errors import StageError, UsageError
 from sketchloft.outer_contour import Contour, outer_contour
 from sketchloft.probe_radius import small_probe_radius
-from sketchloft.ring import ring_centre, ring_depth
+from sketchloft.ring import ring_centre, ring_length
 from sketchloft.work_points import WorkedSlice
 
-__all__ = ["EdgePoints", "EdgePointsParams", "edge_points"]
+__all__ = ["SKIN", "EdgePoints", "EdgePointsParams", "edge_points", "parse_probe_radius"]
+
+ProbeRadius = Literal["auto"] | float | tuple[float, ...]
 
 STAGE = "edge points"
 WINDOW = 2
@@ -25,10 +28,14 @@ FEWEST_SHARE = 0.5
 """A contour that surrounds a smaller share of the slice's points has lost the section."""
 GAP = 0.8
 """Empty area along a contour per edge point and point density, for a small probe; 1 for a hull (Efron)."""
-DEPTH_SAMPLE = 500
-"""Points and triangles of a slice that are asked how deep they lie."""
-SKIN = 0.6
-"""Points less than this share as deep within their contours as evenly filled ones are form a skin."""
+STEP, STEPS = 4.0, 4
+"""Factor between the probe radii that are tried on a skin, and their number."""
+SKIN = 0.65
+"""Sections whose alpha shape fills a smaller share than this of their outer contour are skins."""
+ACROSS = 1.3
+"""Points side by side across the mean width of what may be a section; a skin that is open is thinner."""
+CLOSED = 0.9
+"""A skin is closed where its contour encloses this share of what it does where the skin is emptiest."""
 
 
 @dataclass(frozen=True)
@@ -42,7 +49,7 @@ class EdgePointsParams:
         by rule, one for all slices, or one for each. Infinity gives the convex hull.
     """
 
-    probe_radius: Literal["auto"] | float | tuple[float, ...] = "auto"
+    probe_radius: ProbeRadius = "auto"
 
 
 @dataclass(frozen=True)
@@ -61,6 +68,8 @@ class EdgePoints:
         the section, of the empty strip to be expected between the outermost points and the wall.
     left_out : int
         Number of other contours in the slice: holes and islands.
+    filled : float
+        Share of the area within the contour that the alpha shape fills.
     """
 
     height: float
@@ -68,11 +77,40 @@ class EdgePoints:
     points: Floats
     area: float
     left_out: int
+    filled: float
 
     @property
     def centre(self) -> Floats:
         """(2,) centroid of the area that the contour encloses."""
         return ring_centre(self.points)
+
+
+def parse_probe_radius(text: str) -> ProbeRadius:
+    """Read "auto", a number, "inf", or the name of a file with one radius per slice.
+
+    Raises
+    ------
+    UsageError
+        If the text is none of these, or a radius is not positive.
+    """
+    if text == "auto":
+        return "auto"
+    file = Path(text)
+    words = [text]
+    if file.is_file():
+        try:
+            words = file.read_text(encoding="utf-8").split()
+        except (OSError, UnicodeDecodeError) as error:
+            raise UsageError(f"probe radius: {text} cannot be read as text: {error}") from None
+    try:
+        radii = tuple(float(word) for word in words)
+    except ValueError:
+        raise UsageError(
+            f"probe radius: found '{text}', expected auto, a number, inf, or a file with a number per slice"
+        ) from None
+    if not radii or not all(radius > 0 for radius in radii):
+        raise UsageError(f"probe radius: found '{text}', expected positive numbers")
+    return radii if file.is_file() else radii[0]
 
 
 def edge_points(slices: Sequence[WorkedSlice], params: EdgePointsParams) -> tuple[EdgePoints, ...]:
@@ -97,11 +135,12 @@ def edge_points(slices: Sequence[WorkedSlice], params: EdgePointsParams) -> tupl
     Notes
     -----
     The automatic probe radius is the smallest that is not expected to fall into the section
-    (`small_probe_radius`), or infinite where the section is convex. Convexity is judged by area: by
-    Efron's identity a convex section that holds n points, N of them on the hull of area A, has an area of
-    about A n / (n - N). Where that is no larger than what the small probe accounts for, by twice the
-    standard error over a slice and its four neighbours, nothing speaks against the hull, and a hull
-    follows the wall more evenly.
+    (`small_probe_radius`). Where the cloud covers the surface only, it is the smallest of that radius and
+    its multiples by 4 that closes the skin. Where a filled section is convex it is infinite. Convexity is
+    judged by area: by Efron's identity a convex section that holds n points, N of them on the hull of
+    area A, has an area of about A n / (n - N). Where that is no larger than what the small probe accounts
+    for, by twice the standard error over a slice and its four neighbours, nothing speaks against the hull,
+    and a hull follows the wall more evenly.
 
     References
     ----------
@@ -113,7 +152,7 @@ def edge_points(slices: Sequence[WorkedSlice], params: EdgePointsParams) -> tupl
     else:
         radii = _given(params.probe_radius, len(slices))
         contours = [_contour(s, r, i) for i, (s, r) in enumerate(zip(shapes, radii, strict=True))]
-    filled = _is_filled(shapes, contours)
+    filled = not _is_skin(contours)
     return tuple(
         EdgePoints(
             worked.height,
@@ -121,6 +160,7 @@ def edge_points(slices: Sequence[WorkedSlice], params: EdgePointsParams) -> tupl
             contour.points,
             _accounted(contour, len(worked.points), float(radius)) if filled else contour.area,
             contour.left_out,
+            contour.filled,
         )
         for worked, radius, contour in zip(slices, radii, contours, strict=True)
     )
@@ -163,7 +203,7 @@ def _automatic(shapes: Sequence[AlphaComplex]) -> tuple[Floats, list[Contour]]:
     excess -= area * count / (count - on_close).clip(1)
     variance = area**2 * on_close / count**2
     near = np.abs(np.subtract.outer(np.arange(len(shapes)), np.arange(len(shapes)))) <= WINDOW
-    convex = near @ excess < 2 * np.sqrt(near @ variance)
+    convex = (near @ excess < 2 * np.sqrt(near @ variance)) & (not _is_skin(close))
     contours = [
         hull if all_round else inner for hull, inner, all_round in zip(hulls, close, convex, strict=True)
     ]
@@ -171,15 +211,25 @@ def _automatic(shapes: Sequence[AlphaComplex]) -> tuple[Floats, list[Contour]]:
 
 
 def _smallest(shape: AlphaComplex, index: int) -> tuple[float, Contour]:
-    """Small probe radius, doubled until the largest part of the alpha shape holds most of the points."""
-    radius = small_probe_radius(shape)
+    """Small probe radius, larger where the section is a skin with gaps that the probe would fall through."""
+    small = small_probe_radius(shape)
     limit = float(shape.radii[np.isfinite(shape.radii)].max())
-    while radius < limit:
-        found = outer_contour(shape, radius)
-        if found is not None and found.share >= FEWEST_SHARE:
-            return radius, found
-        radius *= 2
-    return limit, _contour(shape, limit, index)
+    radii = [small * STEP**k for k in range(STEPS) if small * STEP**k < limit]
+    tried = [(radius, outer_contour(shape, radius)) for radius in radii]
+    whole = [(radius, found) for radius, found in tried if found is not None and _is_section(found, shape)]
+    if not whole:
+        return limit, _contour(shape, limit, index)
+    emptiest = min((found for _, found in whole), key=lambda found: found.filled)
+    if emptiest.filled > SKIN:
+        return whole[0]
+    return next((radius, found) for radius, found in whole if found.area >= CLOSED * emptiest.area)
+
+
+def _is_section(contour: Contour, shape: AlphaComplex) -> bool:
+    """Whether a contour surrounds an area with most of the points, not the thin band of an open skin."""
+    width = 2 * contour.area / ring_length(contour.points)
+    across = np.sqrt(2 * len(shape.points) * width / ring_length(contour.points))
+    return contour.share >= FEWEST_SHARE and bool(across >= ACROSS)
 
 
 def _contour(shape: AlphaComplex, radius: float, index: int) -> Contour:
@@ -196,21 +246,13 @@ def _contour(shape: AlphaComplex, radius: float, index: int) -> Contour:
     return found
 
 
+def _is_skin(contours: Sequence[Contour]) -> bool:
+    """Whether the sections are empty inside, all in all."""
+    area = np.array([contour.area for contour in contours])
+    return bool(np.array([contour.filled for contour in contours]) @ area < SKIN * area.sum())
+
+
 def _accounted(contour: Contour, count: int, radius: float) -> float:
     """Area of the contour and of the empty strip along it: each edge point stands for its share of a gap."""
     taken = (1.0 if np.isinf(radius) else GAP) * len(contour.points)
     return contour.area * count / (count - taken) if taken < count / 2 else contour.area
-
-
-def _is_filled(shapes: Sequence[AlphaComplex], contours: Sequence[Contour]) -> bool:
-    """Whether points lie as deep within the contours as they do where they fill them evenly."""
-    depth, even = np.zeros(len(shapes)), np.zeros(len(shapes))
-    for i, (shape, contour) in enumerate(zip(shapes, contours, strict=True)):
-        triangles = slice(None, None, -(-len(shape.simplices) // DEPTH_SAMPLE))
-        corners = shape.points[shape.simplices[triangles]]
-        inside = ring_depth(corners.mean(axis=1), contour.points).clip(0)
-        weight = shape.volumes[triangles]
-        even[i] = (inside * weight).sum() / weight[inside > 0].sum()
-        points = shape.points[:: -(-len(shape.points) // DEPTH_SAMPLE)]
-        depth[i] = ring_depth(points, contour.points).clip(0).mean()
-    return bool(depth.sum() > SKIN * even.sum())

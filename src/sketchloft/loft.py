@@ -14,6 +14,8 @@ from sketchloft.surface import SkinSurface, basis_matrix
 
 __all__ = ["LoftParams", "Section", "loft"]
 
+Between = Literal["straight", "smooth"]
+
 DEGREE = 3
 SAMPLES = 256
 """Parameters around at which sections are compared to find the start without twist."""
@@ -34,7 +36,7 @@ class LoftParams:
         Knot spans around that all sections share; a multiple of 4.
     """
 
-    between: Literal["straight", "smooth"] = "straight"
+    between: Between = "straight"
     spans: int = 64
 
 

@@ -25,11 +25,14 @@ class Contour:
         How many other rings the alpha shape has: holes and islands.
     share : float
         Share of the slice's points within or on the part that the ring surrounds.
+    filled : float
+        Share of the area within the ring that the alpha shape fills; the rest are holes.
     """
 
     points: Floats
     left_out: int
     share: float
+    filled: float
 
     @property
     def area(self) -> float:
@@ -60,9 +63,10 @@ def outer_contour(shape: AlphaComplex, probe_radius: float) -> Contour | None:
     rings = _rings(boundary_facets(shape, part))
     areas = [ring_area(shape.points[ring]) for ring in rings]
     outer = int(np.argmax(areas))
+    filled = float(shape.volumes[part].sum()) / areas[outer]
     held = np.zeros(len(shape.points), dtype=bool)
     held[shape.simplices[part]] = True
-    return Contour(shape.points[rings[outer]], len(rings) - 1 + int(label.max()), float(held.mean()))
+    return Contour(shape.points[rings[outer]], len(rings) - 1 + int(label.max()), float(held.mean()), filled)
 
 
 def _rings(edges: Ints) -> list[Ints]:

@@ -25,7 +25,19 @@ if TYPE_CHECKING:  # the kernel takes most of a second to load
     from sketchloft.brep.facts import SolidFacts
     from sketchloft.brep.solid import Solid
 
-__all__ = ["BodyModel", "Params", "Progress", "Reconstruction", "reconstruct"]
+__all__ = ["STAGES", "BodyModel", "Params", "Progress", "Reconstruction", "reconstruct"]
+
+STAGES = (
+    "input",
+    "bodies",
+    "direction",
+    "slice planes",
+    "work points",
+    "edge points",
+    "shapes",
+    "loft",
+    "solid",
+)
 
 Progress = Callable[[str], None]
 """Called with the name of each stage when it begins."""

@@ -9,10 +9,19 @@ import numpy as np
 
 from sketchloft.alpha_shape import alpha_complex, boundary_facets, components
 from sketchloft.cloud import Floats, Ints
-from sketchloft.errors import StageError
+from sketchloft.errors import StageError, UsageError
 from sketchloft.probe_radius import small_probe_radius
 
-__all__ = ["AxisDistance", "SlicePlanes", "SlicePlanesParams", "slice_planes", "surface_points"]
+__all__ = [
+    "AxisDistance",
+    "SlicePlanes",
+    "SlicePlanesParams",
+    "parse_per_slice",
+    "slice_planes",
+    "surface_points",
+]
+
+CentralAxis = Literal["mean", "least-squares"]
 
 STAGE = "slice planes"
 SAMPLE = 20_000
@@ -28,6 +37,8 @@ LEDGE = 0.02
 """A step is bracketed by two planes, this share of the mean slice thickness above and below it."""
 MERGE = 10
 """An extremum within this many ledges of a step is the step."""
+TAPER = 0.7
+"""A body tapers where the quarter of a slice at its end reaches less than this share of the next plane's."""
 FEWEST = 12
 """A slice with fewer points than this loses its plane to its neighbour."""
 
@@ -46,7 +57,7 @@ class SlicePlanesParams:
     """
 
     per_slice: Literal["auto"] | int = "auto"
-    central_axis: Literal["mean", "least-squares"] = "mean"
+    central_axis: CentralAxis = "mean"
 
 
 @dataclass(frozen=True)
@@ -91,6 +102,21 @@ class SlicePlanes:
     axis_distance: AxisDistance
 
 
+def parse_per_slice(text: str) -> Literal["auto"] | int:
+    """Read "auto" or a number of points per slice.
+
+    Raises
+    ------
+    UsageError
+        If the text is neither, or the number is too small for a contour.
+    """
+    if text == "auto":
+        return "auto"
+    if text.isdecimal() and int(text) >= FEWEST:
+        return int(text)
+    raise UsageError(f"per slice: found '{text}', expected auto or a number of at least {FEWEST}")
+
+
 def slice_planes(points: Floats, params: SlicePlanesParams) -> SlicePlanes:
     """Locate the slice planes of a body.
 
@@ -113,8 +139,10 @@ def slice_planes(points: Floats, params: SlicePlanesParams) -> SlicePlanes:
     -----
     The extrema are found iteratively: of all local extrema of the binned profile, the neighbouring
     pair that differs least is removed, until every pair left differs by more than the scatter of
-    the bins explains. Each space between two extrema is then divided evenly, into as many slices
-    as its points allow. Where the profile is level nothing is left to remove and the slicing is even.
+    the bins explains. Each space between two extrema is then divided evenly, into as many slices as its
+    points allow, and where the body tapers to a tip, further planes half-way to it follow as long as the
+    last slice holds enough points. Where the profile is level nothing is left to remove and the slicing is
+    even.
     """
     per_slice = _per_slice(len(points), params.per_slice)
     found = _axis_distance(points, params.central_axis, BINS_PER_SLICE * len(points) // per_slice)
@@ -132,6 +160,9 @@ def slice_planes(points: Floats, params: SlicePlanesParams) -> SlicePlanes:
         for low, high, count in zip(keys[:-1], keys[1:], counts, strict=True)
     ]
     heights = _without_thin_slices(np.r_[np.concatenate(spaces), top], height)
+    distance = np.linalg.norm(points[:, :2] - found.axis, axis=1)
+    heights = _towards_tip(heights, points[:, 2], distance)
+    heights = -_towards_tip(-heights[::-1], -points[:, 2], distance)[::-1]
     if len(heights) < 2:
         raise StageError(
             f"found {len(points)} points for slices of {per_slice}, expected at least two slices; lower "
@@ -163,11 +194,6 @@ def surface_points(points: Floats) -> Floats:
 def _per_slice(count: int, asked: Literal["auto"] | int) -> int:
     if asked == "auto":
         return max(3 * FEWEST, round(500 * (count / 10_000) ** (2 / 3)))
-    if asked < FEWEST:
-        raise StageError(
-            f"found {asked} points per slice asked for, a contour needs at least {FEWEST}; ask for more",
-            stage=STAGE,
-        )
     if asked > count / 2:
         raise StageError(
             f"found {asked} points per slice asked for, but the body has only {count} points and needs two "
@@ -177,7 +203,7 @@ def _per_slice(count: int, asked: Literal["auto"] | int) -> int:
     return asked
 
 
-def _axis_distance(points: Floats, rule: Literal["mean", "least-squares"], bins: int) -> AxisDistance:
+def _axis_distance(points: Floats, rule: CentralAxis, bins: int) -> AxisDistance:
     surface = surface_points(points)
     across, height = surface[:, :2], surface[:, 2]
     axis = across.mean(axis=0) if rule == "mean" else _circle_centre(across)
@@ -267,6 +293,19 @@ def _upper_end(values: Floats, bottom: float, top: float) -> float:
     best = int(np.argmax(evidence))
     gap = 2 * below[best] / count[best]
     return float(min(values[best] + gap, values[best + 1] if rest[best] else top))
+
+
+def _towards_tip(heights: Floats, height: Floats, distance: Floats) -> Floats:
+    """Add planes half-way to the first one, again and again, while the body tapers to a tip there."""
+    while True:
+        gap = heights[1] - heights[0]
+        above = (height - heights[0]) / gap
+        last, next_ = above < 1 / 4, (above > 3 / 4) & (above < 5 / 4)
+        if min(last.sum(), next_.sum()) < 2 * FEWEST:
+            return heights
+        if np.quantile(distance[last], OUTER) > TAPER * np.quantile(distance[next_], OUTER):
+            return heights
+        heights = np.r_[heights[0], heights[0] + gap / 2, heights[1:]]
 
 
 def _without_thin_slices(heights: Floats, points: Floats) -> Floats:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from sketchloft.cloud import Floats
+from sketchloft.cloud import Floats, Ints
 
 __all__ = ["SkinSurface", "basis_matrix", "distinct_knots", "evaluate"]
 
@@ -44,7 +44,7 @@ def distinct_knots(knots: Floats) -> Floats:
 
 
 def basis_matrix(knots: Floats, degree: int, at: ArrayLike, derivative: int = 0) -> Floats:
-    """Values of all B-spline basis functions, or of one of their derivatives.
+    """Values of all B-spline basis functions, or of their first derivatives.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ def basis_matrix(knots: Floats, degree: int, at: ArrayLike, derivative: int = 0)
     at : (m,) array_like
         Parameters; those outside the knots are taken to the nearer end.
     derivative : int
-        0 for the values, 1 for the first derivative.
+        0 for the values, 1 for the first derivatives.
 
     Returns
     -------
@@ -64,23 +64,12 @@ def basis_matrix(knots: Floats, degree: int, at: ArrayLike, derivative: int = 0)
 
     References
     ----------
-    L. Piegl, W. Tiller, The NURBS Book, 2nd ed., Springer 1997, sections 2.2-2.3.
+    L. Piegl, W. Tiller, The NURBS Book, 2nd ed., Springer 1997, sections 2.2-2.5.
     """
-    x = np.clip(np.atleast_1d(np.asarray(at, dtype=np.float64)), knots[0], knots[-1])[:, None]
-    n = len(knots) - degree - 1
-    span = np.clip(np.searchsorted(knots, x[:, 0], side="right") - 1, degree, n - 1)
-    values = np.zeros((len(x), len(knots) - 1))
-    values[np.arange(len(x)), span] = 1.0
-    for p in range(1, degree + 1):
-        count = len(knots) - 1 - p
-        left, right = knots[:count], knots[p + 1 : p + 1 + count]
-        rise = _inverse(knots[p : p + count] - left)
-        fall = _inverse(right - knots[1 : 1 + count])
-        if p > degree - derivative:
-            values = p * (rise * values[:, :-1] - fall * values[:, 1:])
-        else:
-            values = (x - left) * rise * values[:, :-1] + (right - x) * fall * values[:, 1:]
-    return values
+    first, values = _local_basis(knots, degree, at, derivative)
+    matrix = np.zeros((len(first), len(knots) - degree - 1))
+    np.put_along_axis(matrix, first[:, None] + np.arange(degree + 1), values, axis=1)
+    return matrix
 
 
 def evaluate(
@@ -102,27 +91,49 @@ def evaluate(
     -------
     (b, a, 3) float array
     """
-    around = basis_matrix(surface.u_knots, surface.u_degree, u, u_derivative)
-    along = basis_matrix(surface.v_knots, surface.v_degree, v, v_derivative)
+    around = _local_basis(surface.u_knots, surface.u_degree, u, u_derivative)
+    along = _local_basis(surface.v_knots, surface.v_degree, v, v_derivative)
     if surface.weights is None:
         return _blend(surface.poles, around, along)
     weights = surface.weights[..., None]
     weighted = _blend(surface.poles * weights, around, along)
+    rate = _blend(weights, around, along)
     if not u_derivative and not v_derivative:
-        return weighted / _blend(weights, around, along)
+        return weighted / rate
     # The quotient rule (NURBS Book, eq. 4.8).
-    u_basis = basis_matrix(surface.u_knots, surface.u_degree, u)
-    v_basis = basis_matrix(surface.v_knots, surface.v_degree, v)
-    rate, total = _blend(weights, around, along), _blend(weights, u_basis, v_basis)
-    return (weighted - rate * evaluate(surface, u, v)) / total
+    u_basis = _local_basis(surface.u_knots, surface.u_degree, u)
+    v_basis = _local_basis(surface.v_knots, surface.v_degree, v)
+    return (weighted - rate * evaluate(surface, u, v)) / _blend(weights, u_basis, v_basis)
 
 
-def _blend(rows: Floats, around: Floats, along: Floats) -> Floats:
-    columns: Floats = np.tensordot(along, rows, axes=(1, 0))
-    blended: Floats = np.einsum("au,buk->bak", around, columns, optimize=True)
-    return blended
+def _local_basis(knots: Floats, degree: int, at: ArrayLike, derivative: int = 0) -> tuple[Ints, Floats]:
+    """Index (m,) of the first basis function that is not 0, and the degree + 1 of them from there on."""
+    x = np.clip(np.atleast_1d(np.asarray(at, dtype=np.float64)), knots[0], knots[-1])
+    span = np.clip(np.searchsorted(knots, x, side="right") - 1, degree, len(knots) - degree - 2)
+    values = np.zeros((len(x), degree + 1))
+    values[:, 0] = 1.0
+    for p in range(1, degree + 1 - derivative):
+        saved = np.zeros(len(x))
+        for r in range(p):
+            high, low = knots[span + r + 1], knots[span + r + 1 - p]
+            share = values[:, r] / (high - low)
+            values[:, r] = saved + (high - x) * share
+            saved = (x - low) * share
+        values[:, p] = saved
+    if derivative:
+        index = span[:, None] + np.arange(1 - degree, 1)
+        slopes = degree * values[:, :-1] / (knots[index + degree] - knots[index])
+        values = -np.diff(slopes, axis=1, prepend=0.0, append=0.0)
+    return span - degree, values
 
 
-def _inverse(widths: Floats) -> Floats:
-    """1 / width, and 0 for a span of no width (the usual convention for repeated knots)."""
-    return np.divide(1.0, widths, out=np.zeros_like(widths), where=widths > 0)
+def _blend(rows: Floats, around: tuple[Ints, Floats], along: tuple[Ints, Floats]) -> Floats:
+    """Blend poles (nv, nu, k) first along v, then around u."""
+    (first, values), (row, row_values) = around, along
+    sections = row_values[:, 0, None, None] * rows[row]
+    for j in range(1, row_values.shape[1]):
+        sections += row_values[:, j, None, None] * rows[row + j]
+    grid: Floats = values[:, 0, None] * sections[:, first]
+    for j in range(1, values.shape[1]):
+        grid += values[:, j, None] * sections[:, first + j]
+    return grid

@@ -12,8 +12,12 @@ from sketchloft.errors import StageError
 
 __all__ = ["WorkPointsParams", "WorkedSlice", "follow_slope", "work_points"]
 
+Working = Literal["along-slope", "parallel"]
+
 MIN_POINTS = 8
 """A contour cannot be found in fewer points than these."""
+MOST = 2.0
+"""Largest factor that a point is moved by along a slope."""
 LEDGE = 0.1
 """Planes closer than this share of the median distance bracket a step; the section does not slope there."""
 
@@ -30,7 +34,7 @@ class WorkPointsParams:
         the slope that the first contours show, which takes most of that error away.
     """
 
-    working: Literal["along-slope", "parallel"] = "along-slope"
+    working: Working = "along-slope"
 
 
 @dataclass(frozen=True)
@@ -116,7 +120,7 @@ def follow_slope(points: Floats, heights: Floats, centres: Floats, areas: Floats
     reach = np.sqrt(areas)
     at = reach[own] + share * (reach[other] - reach[own])
     centre = centres[own] + share[:, None] * (centres[other] - centres[own])
-    across = centres[own] + (points[:, :2] - centre) * (reach[own] / at)[:, None]
+    across = centres[own] + (points[:, :2] - centre) * np.clip(reach[own] / at, 1 / MOST, MOST)[:, None]
     return np.c_[across, points[:, 2]]
 
 

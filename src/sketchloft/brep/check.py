@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 from OCP.BRep import BRep_Tool
 from OCP.BRepCheck import BRepCheck_Analyzer
 from OCP.Geom import Geom_BSplineSurface
@@ -103,14 +104,18 @@ def _distance_from_sections(solid: Solid, surface: SkinSurface) -> float:
 
 def _distance(wanted: Floats, skins: list[SkinSurface], u: Floats, v: Floats, period: float) -> float:
     """`wanted` (len(v), len(u), 3) against the skins; infinite where none of them covers a parameter."""
-    away = np.full(len(u), np.inf)
+    away = np.full(wanted.shape[:2], np.inf)
     for skin in skins:
+        rows = np.flatnonzero(_within(v, skin.v_knots))
         for turned in (u, u + period):
-            slack = 1e-9 * period
-            within = (turned >= skin.u_knots[0] - slack) & (turned <= skin.u_knots[-1] + slack)
-            if within.any():
-                gaps = np.linalg.norm(evaluate(skin, turned[within], v) - wanted[:, within], axis=2).max(
-                    axis=0
-                )
-                away[within] = np.minimum(away[within], gaps)
+            columns = np.flatnonzero(_within(turned, skin.u_knots))
+            if len(rows) and len(columns):
+                cells = np.ix_(rows, columns)
+                gaps = np.linalg.norm(evaluate(skin, turned[columns], v[rows]) - wanted[cells], axis=2)
+                away[cells] = np.minimum(away[cells], gaps)
     return float(away.max())
+
+
+def _within(parameters: Floats, knots: Floats) -> NDArray[np.bool_]:
+    slack = 1e-9 * (knots[-1] - knots[0])
+    return (parameters >= knots[0] - slack) & (parameters <= knots[-1] + slack)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 from OCP.BRep import BRep_Builder
 from OCP.Geom import Geom_Curve
@@ -10,6 +11,7 @@ from OCP.TopAbs import TopAbs_Orientation
 from OCP.TopoDS import TopoDS_Edge, TopoDS_Vertex
 
 from sketchloft.brep.kernel import CONFUSION, bspline_curve, point
+from sketchloft.brep.patches import PatchGrid, part
 from sketchloft.cloud import Floats
 from sketchloft.surface import SkinSurface
 
@@ -20,42 +22,53 @@ _BUILD = BRep_Builder()
 
 @dataclass(frozen=True)
 class LoftEdges:
-    """Edges of a loft, one of each per patch.
+    """Edges of a loft.
 
     Parameters
     ----------
-    bottom, top : list of TopoDS_Edge
-        Along the first and the last section of each patch, in the sense of growing u.
-    along : list of TopoDS_Edge
-        Along the first column of each patch, from bottom to top.
+    around : list of dict of int to TopoDS_Edge
+        Per boundary of a band the edges along its section by the column that each begins at, in the
+        sense of growing u.
+    along : list of dict of int to TopoDS_Edge
+        Per band the edges from its lower to its upper section, by their column; the last column is the first.
     """
 
-    bottom: list[TopoDS_Edge]
-    top: list[TopoDS_Edge]
-    along: list[TopoDS_Edge]
+    around: list[dict[int, TopoDS_Edge]]
+    along: list[dict[int, TopoDS_Edge]]
 
 
-def loft_edges(sides: list[SkinSurface]) -> LoftEdges:
-    """Make the edges around and between patches that follow each other around the loft."""
-    feet = [_vertex(side.poles[0, 0]) for side in sides]
-    heads = [_vertex(side.poles[-1, 0]) for side in sides]
-    bottom, top, along = [], [], []
-    for i, side in enumerate(sides):
-        following = (i + 1) % len(sides)
-        bottom.append(_edge(_section(side, 0), side.u_knots, feet[i], feet[following]))
-        top.append(_edge(_section(side, -1), side.u_knots, heads[i], heads[following]))
-        along.append(_edge(_first_column(side), side.v_knots, feet[i], heads[i]))
-    return LoftEdges(bottom, top, along)
+def loft_edges(grid: PatchGrid) -> LoftEdges:
+    """Make the edges around and between the patches."""
+    corners, around, along = [], [], []
+    for i, row in enumerate(grid.rows):
+        columns = sorted(set().union(*grid.columns[max(i - 1, 0) : i + 1]))
+        vertices = {column: _vertex(grid.skin.poles[row, column]) for column in columns[:-1]}
+        corners.append(vertices | {columns[-1]: vertices[columns[0]]})
+        pairs = pairwise(columns)
+        around.append({a: _around(grid.skin, row, (a, b), corners[i]) for a, b in pairs})
+    for i, columns in enumerate(grid.columns):
+        rows = (grid.rows[i], grid.rows[i + 1])
+        edges = {column: _along(grid.skin, rows, column, corners[i : i + 2]) for column in columns[:-1]}
+        along.append(edges | {columns[-1]: edges[columns[0]]})
+    return LoftEdges(around, along)
 
 
-def _section(side: SkinSurface, row: int) -> Geom_Curve:
-    weights = None if side.weights is None else side.weights[row]
-    return bspline_curve(side.poles[row], weights, side.u_knots, side.u_degree)
+def _around(
+    skin: SkinSurface, row: int, columns: tuple[int, int], corner: dict[int, TopoDS_Vertex]
+) -> TopoDS_Edge:
+    piece = part(skin, (0, len(skin.poles) - 1), columns)
+    weights = None if piece.weights is None else piece.weights[row]
+    curve = bspline_curve(piece.poles[row], weights, piece.u_knots, piece.u_degree)
+    return _edge(curve, piece.u_knots, corner[columns[0]], corner[columns[1]])
 
 
-def _first_column(side: SkinSurface) -> Geom_Curve:
-    weights = None if side.weights is None else side.weights[:, 0]
-    return bspline_curve(side.poles[:, 0], weights, side.v_knots, side.v_degree)
+def _along(
+    skin: SkinSurface, rows: tuple[int, int], column: int, corners: list[dict[int, TopoDS_Vertex]]
+) -> TopoDS_Edge:
+    piece = part(skin, rows, (0, skin.poles.shape[1] - 1))
+    weights = None if piece.weights is None else piece.weights[:, column]
+    curve = bspline_curve(piece.poles[:, column], weights, piece.v_knots, piece.v_degree)
+    return _edge(curve, piece.v_knots, corners[0][column], corners[1][column])
 
 
 def _vertex(xyz: Floats) -> TopoDS_Vertex:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import functools
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -17,10 +19,15 @@ PARALLEL = 1e-7
 
 def gauss_points(knots: Floats, count: int) -> tuple[Floats, Floats]:
     """Gauss-Legendre points and weights on every span of a knot vector, exact to degree 2 count - 1."""
-    nodes, weights = np.polynomial.legendre.leggauss(count)
+    nodes, weights = _legendre(count)
     ends = distinct_knots(knots)
     half = np.diff(ends)[:, None] / 2
     return (ends[:-1, None] + half * (1 + nodes)).ravel(), (half * weights).ravel()
+
+
+@functools.cache
+def _legendre(count: int) -> tuple[Floats, Floats]:
+    return np.polynomial.legendre.leggauss(count)
 
 
 def section_axis(surface: SkinSurface) -> Floats:

@@ -14,7 +14,7 @@ from OCP.TopoDS import TopoDS_Edge, TopoDS_Face, TopoDS_Shape, TopoDS_Shell, Top
 
 from sketchloft.brep.edges import LoftEdges, loft_edges
 from sketchloft.brep.kernel import CONFUSION, bspline_surface, direction, point
-from sketchloft.brep.patches import patches
+from sketchloft.brep.patches import PatchGrid, cut, part
 from sketchloft.cloud import Floats
 from sketchloft.errors import ModelError
 from sketchloft.surface import SkinSurface, evaluate
@@ -42,8 +42,9 @@ def loft_solid(surface: SkinSurface) -> Solid:
     Returns
     -------
     Solid
-        One closed shell, normals outwards. One face around, or one per side where the sections
-        have sharp corners, and two planar caps.
+        One closed shell, normals outwards: two planar caps, and between them one face, or one for each
+        part of the skin that its sharp edges bound, across (at a kink of the wall) or along (at a corner
+        of the sections).
 
     Raises
     ------
@@ -56,15 +57,16 @@ def loft_solid(surface: SkinSurface) -> Solid:
     sides. The kernel's tolerance is absolute (1e-7), so build a skin in a frame in which it is about 1
     across, and place the solid afterwards (`placed`).
     """
-    outward = surface if _winds_left(surface) else _mirrored(surface)
-    sides = patches(outward)
-    edges = loft_edges(sides)
+    grid = cut(surface if _winds_left(surface) else _mirrored(surface))
+    edges = loft_edges(grid)
     shell = TopoDS_Shell()
     _BUILD.MakeShell(shell)
-    for i, side in enumerate(sides):
-        _BUILD.Add(shell, _side(side, edges, i))
-    _BUILD.Add(shell, _cap(outward.poles[0], [e.Reversed() for e in reversed(edges.bottom)], "first"))
-    _BUILD.Add(shell, _cap(outward.poles[-1], edges.top, "last"))
+    for band, columns in enumerate(grid.columns):
+        for i in range(len(columns) - 1):
+            _BUILD.Add(shell, _side(grid, edges, band, columns[i : i + 2]))
+    bottom, top = list(edges.around[0].values()), list(edges.around[-1].values())
+    _BUILD.Add(shell, _cap(grid.skin.poles[0], [edge.Reversed() for edge in reversed(bottom)], "first"))
+    _BUILD.Add(shell, _cap(grid.skin.poles[-1], top, "last"))
     shell.Closed(True)
     solid = TopoDS_Solid()
     _BUILD.MakeSolid(solid)
@@ -90,22 +92,29 @@ def _mirrored(surface: SkinSurface) -> SkinSurface:
     return replace(surface, poles=surface.poles[:, ::-1], u_knots=knots, weights=weights)
 
 
-def _side(side: SkinSurface, edges: LoftEdges, i: int) -> TopoDS_Face:
+def _side(grid: PatchGrid, edges: LoftEdges, band: int, columns: list[int]) -> TopoDS_Face:
+    """Make the face of one patch; its neighbours above and below may have more corners than it has."""
+    start, end = columns
+    skin = part(grid.skin, (grid.rows[band], grid.rows[band + 1]), (start, end))
     face = TopoDS_Face()
-    _BUILD.MakeFace(face, bspline_surface(side), CONFUSION)
-    left, right = edges.along[i], edges.along[(i + 1) % len(edges.along)]
-    u0, u1 = float(side.u_knots[0]), float(side.u_knots[-1])
-    v0, v1 = float(side.v_knots[0]), float(side.v_knots[-1])
+    _BUILD.MakeFace(face, bspline_surface(skin), CONFUSION)
+    u0, u1, v0, v1 = (float(at) for at in (*skin.u_knots[[0, -1]], *skin.v_knots[[0, -1]]))
+    bottom = [edge for column, edge in edges.around[band].items() if start <= column < end]
+    top = [edge for column, edge in edges.around[band + 1].items() if start <= column < end]
+    left, right = edges.along[band][start], edges.along[band][end]
     across, up = gp_Dir2d(1, 0), gp_Dir2d(0, 1)
+    for edge in bottom:
+        _BUILD.UpdateEdge(edge, Geom2d_Line(gp_Pnt2d(0, v0), across), face, CONFUSION)
+    for edge in top:
+        _BUILD.UpdateEdge(edge, Geom2d_Line(gp_Pnt2d(0, v1), across), face, CONFUSION)
     at_left, at_right = Geom2d_Line(gp_Pnt2d(u0, 0), up), Geom2d_Line(gp_Pnt2d(u1, 0), up)
-    _BUILD.UpdateEdge(edges.bottom[i], Geom2d_Line(gp_Pnt2d(0, v0), across), face, CONFUSION)
-    _BUILD.UpdateEdge(edges.top[i], Geom2d_Line(gp_Pnt2d(0, v1), across), face, CONFUSION)
     if left.IsSame(right):  # the seam: its forward use bounds the face on the right
         _BUILD.UpdateEdge(left, at_right, at_left, face, CONFUSION)
     else:
         _BUILD.UpdateEdge(left, at_left, face, CONFUSION)
         _BUILD.UpdateEdge(right, at_right, face, CONFUSION)
-    _BUILD.Add(face, _wire([edges.bottom[i], right, edges.top[i].Reversed(), left.Reversed()]))
+    back = [edge.Reversed() for edge in reversed(top)]
+    _BUILD.Add(face, _wire([*bottom, right, *back, left.Reversed()]))
     return face
 
 

@@ -1,0 +1,82 @@
+"""The command line: parses, calls the library, prints, and maps errors to exit codes."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import cyclopts
+from cyclopts import Parameter
+
+from sketchloft import __version__
+from sketchloft.errors import OutputError, SketchloftError, UsageError
+
+__all__ = ["main"]
+
+INTERRUPTED = 130
+
+app = cyclopts.App(
+    name="sketchloft",
+    help="Turn a cloud of points drawn in mid-air into a CAD solid.",
+    help_epilogue=(
+        "Exit codes: 0 done, 2 wrong option, 3 unreadable input, 4 cloud that is no solid, 5 a stage that "
+        "cannot go on, 6 invalid solid, 7 unwritable output."
+    ),
+    help_format="plaintext",
+    version=__version__,
+)
+# Commands are named, not imported: each is loaded when it is called, which keeps --help instant.
+app.command("sketchloft.commands.build:build", name="build", help="Build a CAD model from a cloud of points.")
+app.command("sketchloft.commands.sample:sample", name="sample", help="Draw a cloud of a known solid.")
+app.command("sketchloft.commands.measure:measure", name="measure", help="Measure a model against its goal.")
+app.command(
+    "sketchloft.commands.compare:compare",
+    name="compare",
+    help="Compare slice-and-loft with the 3D alpha shape and the octree boundary.",
+)
+app.command("sketchloft.commands.info:info", name="info", help="Tell what is in a file.")
+app.register_install_completion_command(help="Install completion for this shell.")
+
+
+@app.meta.default
+def _run(
+    *tokens: Annotated[str, Parameter(show=False, allow_leading_hyphen=True)],
+    config: Annotated[
+        Path | None,
+        Parameter(help="TOML file with options, a table per command; options given here win."),
+    ] = None,
+) -> object:
+    if config is not None:
+        if not config.is_file():
+            raise UsageError(f"{config}: is no file; give a TOML file with a table such as [build]")
+        app.config = (cyclopts.config.Toml(config, must_exist=True, use_commands_as_keys=True),)
+    return app(tokens, exit_on_error=False, print_error=False)
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Run the command line and leave with its exit code."""
+    sys.exit(_exit_code(sys.argv[1:] if arguments is None else arguments))
+
+
+def _exit_code(arguments: list[str]) -> int:
+    try:
+        app.meta(arguments, exit_on_error=False, print_error=False)
+        sys.stdout.flush()
+    except SketchloftError as error:
+        return _failed(str(error), error.exit_code)
+    except cyclopts.CycloptsError as error:
+        return _failed(" ".join(str(error).split()), UsageError.exit_code)
+    except BrokenPipeError:  # the reader of our output went away; that is its business
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except KeyboardInterrupt:
+        return _failed("interrupted; nothing was written", INTERRUPTED)
+    except MemoryError:
+        return _failed("there is not enough memory for this cloud; thin it first", OutputError.exit_code)
+    return 0
+
+
+def _failed(message: str, code: int) -> int:
+    sys.stderr.write(f"sketchloft: {message}\n")
+    return code

@@ -1,0 +1,108 @@
+"""`sketchloft build`: a cloud becomes a CAD model."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Literal
+
+from cyclopts import Parameter
+
+from sketchloft.bodies import BodiesParams, parse_bodies
+from sketchloft.brep.files import check_outputs, write_model
+from sketchloft.brep.model import NamedSolid
+from sketchloft.cloud import Unit
+from sketchloft.commands.console import Json, Quiet, Verbose, progress, remark, show, show_json
+from sketchloft.direction import DirectionParams, parse_axis
+from sketchloft.edge_points import EdgePointsParams, parse_probe_radius
+from sketchloft.io import read_cloud
+from sketchloft.loft import Between, LoftParams
+from sketchloft.output import check_writable
+from sketchloft.pipeline import STAGES, Params, reconstruct
+from sketchloft.shapes.choice import ShapesParams
+from sketchloft.slice_planes import CentralAxis, SlicePlanesParams, parse_per_slice
+from sketchloft.summary import summary, summary_lines
+from sketchloft.work_points import Working, WorkPointsParams
+
+__all__ = ["build"]
+
+
+def build(
+    cloud: Annotated[Path, Parameter(help="Cloud of points: xyz, txt, csv, pts, npy, ply or pcd.")],
+    /,
+    *,
+    output: Annotated[
+        list[Path] | None,
+        Parameter(
+            name=["--output", "-o"],
+            negative="",
+            help="Model to write, several times for several formats: step, iges, brep, stl, glb, 3mf. "
+            "[default: the cloud's name with .step]",
+        ),
+    ] = None,
+    method: Annotated[Literal["paper"], Parameter(help="paper: slice and loft.")] = "paper",
+    axis: Annotated[str, Parameter(help='Slicing direction: auto, x, y, z or a vector, "0,0.2,1".')] = "auto",
+    per_slice: Annotated[str, Parameter(help="Points per slice; auto is 500 at 10,000 points.")] = "auto",
+    central_axis: Annotated[
+        CentralAxis, Parameter(help="Axis through the mean or the best circle of the surface points.")
+    ] = SlicePlanesParams.central_axis,
+    working: Annotated[
+        Working, Parameter(help="Points move onto their plane along the wall's slope, or parallel.")
+    ] = WorkPointsParams.working,
+    probe_radius: Annotated[
+        str, Parameter(help="Radius of the alpha shape's probe: auto, a number, inf, or a file of radii.")
+    ] = "auto",
+    shapes: Annotated[
+        str,
+        Parameter(
+            help="Shape of the sections: auto, off (splines), circle, ellipse, rectangle, or for single "
+            "slices, 3:circle,7-9:rectangle."
+        ),
+    ] = ShapesParams.shapes,
+    loft: Annotated[
+        Between, Parameter(help="Straight between sections, or one smooth spline.")
+    ] = LoftParams.between,
+    bodies: Annotated[str, Parameter(help="Number of bodies, or auto.")] = "auto",
+    unit: Annotated[Unit, Parameter(help="Unit of the cloud's numbers, and of the model's.")] = "mm",
+    report: Annotated[Path | None, Parameter(help="HTML report to write.")] = None,
+    json: Json = False,
+    quiet: Quiet = False,
+    verbose: Verbose = False,
+) -> None:
+    """Build a CAD model from a cloud of points."""
+    del method  # only one so far
+    params = Params(
+        BodiesParams(parse_bodies(bodies)),
+        DirectionParams(parse_axis(axis)),
+        SlicePlanesParams(parse_per_slice(per_slice), central_axis),
+        WorkPointsParams(working),
+        EdgePointsParams(parse_probe_radius(probe_radius)),
+        ShapesParams(shapes),
+        LoftParams(loft),
+    )
+    outputs = output or [cloud.with_suffix(".step")]
+    check_outputs(outputs)
+    if report is not None:
+        check_writable(report)
+    with progress(("read", *STAGES, "write", "report"), quiet=quiet, verbose=verbose) as begin:
+        begin("read")
+        points = read_cloud(cloud, unit=unit)
+        result = reconstruct(points, params, begin)
+        begin("write")
+        solids = [NamedSolid(body.name, body.solid) for body in result.bodies]
+        if report is not None:
+            from sketchloft.report.html import write_report  # noqa: PLC0415  matplotlib takes a second
+
+            begin("report")
+            write_report(result, report, unit=unit)
+        write_model(outputs, solids, unit)
+    written = [str(path) for path in (*outputs, *([report] if report else []))]
+    figures = summary(result, unit)
+    if json:
+        show_json({"written": written, **figures})
+        return
+    if not quiet:
+        for text in figures["remarks"]:
+            remark(text)
+    for line in summary_lines(result, unit):
+        show(line)
+    show("written: " + ", ".join(written))

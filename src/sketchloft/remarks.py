@@ -1,0 +1,79 @@
+"""Remarks: what a person should know about a reconstruction that went through."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+
+from sketchloft.edge_points import SKIN
+from sketchloft.pipeline import BodyModel, Reconstruction
+
+__all__ = ["remarks"]
+
+
+def remarks(result: Reconstruction) -> tuple[str, ...]:
+    """One sentence for everything that was left out or looks doubtful.
+
+    Parameters
+    ----------
+    result : Reconstruction
+
+    Returns
+    -------
+    tuple of str
+        Each names the stage and, where it concerns single slices, the slices.
+    """
+    cloud = result.cloud
+    found = []
+    if cloud.n_not_finite:
+        found.append(f"input: {cloud.n_not_finite} of {cloud.n_read} points are not finite and were left out")
+    if cloud.n_repeated:
+        found.append(f"input: {cloud.n_repeated} of {cloud.n_read} points are repeats and were left out")
+    several = len(result.bodies) > 1
+    for body in result.bodies:
+        prefix = f"{body.name}: " if several else ""
+        found += [prefix + text for text in (*_left_out(body), *_all_hull(body, result))]
+    return tuple(found)
+
+
+def _left_out(body: BodyModel) -> list[str]:
+    area = np.array([edge.area for edge in body.edges])
+    filled = float(np.array([edge.filled for edge in body.edges]) @ area / area.sum())
+    if filled < SKIN:
+        return [
+            f"edge points: the points fill {filled:.0%} of the sections, so they were taken for the skin of "
+            "a solid"
+        ]
+    slices = [i for i, edge in enumerate(body.edges) if edge.left_out]
+    if not slices:
+        return []
+    count = sum(edge.left_out for edge in body.edges)
+    return [
+        f"edge points, slices {ranges(slices)}: {count} inner or separate contours were left out; the "
+        "method keeps one outer contour per slice, so holes are closed and side branches are lost"
+    ]
+
+
+def _all_hull(body: BodyModel, result: Reconstruction) -> list[str]:
+    asked = result.params.edge_points.probe_radius
+    if asked == "auto" or np.isinf(asked).any():
+        return []
+    slices = [
+        i
+        for i, (edge, worked) in enumerate(zip(body.edges, body.worked, strict=True))
+        if edge.probe_radius > float(np.ptp(worked.points, axis=0).max())
+    ]
+    if not slices:
+        return []
+    return [
+        f"edge points, slices {ranges(slices)}: the probe radius is larger than the section, so its contour "
+        "is the convex hull; use a smaller radius if the section has hollows"
+    ]
+
+
+def ranges(numbers: list[int]) -> str:
+    """Rising numbers as ranges: [0, 1, 2, 5] is "0-2, 5"."""
+    cuts = [0, *(i for i in range(1, len(numbers)) if numbers[i] != numbers[i - 1] + 1), len(numbers)]
+    parts = [numbers[a:b] for a, b in itertools.pairwise(cuts)]
+    return ", ".join(str(part[0]) if len(part) == 1 else f"{part[0]}-{part[-1]}" for part in parts)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 from typing import Literal
 
@@ -9,17 +10,13 @@ import numpy as np
 
 from sketchloft.cloud import Floats, Ints
 from sketchloft.errors import StageError, UsageError
+from sketchloft.neighbours import neighbour_graph
 
 __all__ = ["BodiesParams", "parse_bodies", "separate_bodies"]
 
 MAX_BODIES = 10
 SAMPLE = 20_000
 """Points that the number of bodies is decided on; all points are then assigned."""
-NEIGHBOURS = 8
-REACH = 2.0
-"""Two points are linked when they lie within this many times the reach of the eighth neighbour of either."""
-MIN_SHARE = 0.02
-"""A body with fewer than this share of the points is taken for stray points."""
 
 
 @dataclass(frozen=True)
@@ -57,10 +54,12 @@ def separate_bodies(points: Floats, params: BodiesParams) -> tuple[Ints, ...]:
     """Separate a cloud into bodies.
 
     k-means runs for k = 1..10, as in the paper. Its error always falls with k, so the least error
-    cannot tell the number. Instead, clusters that touch are joined again: two clusters touch when a
-    point of one and a point of the other are among each other's eight nearest neighbours and within
-    twice the reach that both have among their own. What stays apart are bodies, and the k whose
-    clusters fall into the most bodies is taken, the smallest k of those that tie.
+    cannot tell the number. Instead, clusters that touch are joined again, and the k whose clusters then
+    make the most bodies is taken, the smallest of those that tie. Two clusters touch when points of both
+    are linked: among each other's eight nearest neighbours and within twice the reach of both, or no
+    further apart than five times the smaller reach, where reach is the median distance of a point's eight
+    neighbours. Where linked points make still more bodies, k-means has cut across long bodies side by
+    side, and the linked parts are taken.
 
     Parameters
     ----------
@@ -83,75 +82,45 @@ def separate_bodies(points: Floats, params: BodiesParams) -> tuple[Ints, ...]:
     # Canonical order is by distance from the centre: every k-th point is an even sample of it.
     sample = points[:: -(-len(points) // SAMPLE)]
     if params.bodies != "auto":
-        centres, label = _k_means(sample, params.bodies, params.seed)
+        centres, _ = _k_means(sample, params.bodies, params.seed)
         return _assign(points, centres, np.arange(params.bodies))
-    links = _links(sample)
-    best: tuple[int, Floats, Ints] = (1, sample.mean(axis=0)[None], np.zeros(1, dtype=np.intp))
-    if _groups(links, np.arange(len(sample)))[0] > 1:
-        for k in range(2, MAX_BODIES + 1):
-            centres, label = _k_means(sample, k, params.seed)
-            bodies, body_of = _joined(label, links)
-            if bodies > best[0]:
-                best = bodies, centres, body_of
-    return _assign(points, best[1], best[2])
+    graph = neighbour_graph(sample)
+    parts = graph.joined(np.arange(len(sample)))
+    if parts.max() == 0:
+        return (np.arange(len(points)),)
+    anchors, body_of = sample, parts
+    best = 1
+    for k in range(2, MAX_BODIES + 1):
+        centres, label = _k_means(sample, k, params.seed)
+        bodies = graph.joined(label)
+        if bodies.max() + 1 > best:
+            best, anchors, body_of = int(bodies.max()) + 1, centres, bodies
+    if parts.max() + 1 > best:
+        anchors, body_of = sample, parts
+    return _assign(points, anchors, body_of)
 
 
 def _k_means(points: Floats, k: int, seed: int) -> tuple[Floats, Ints]:
-    """Best of four starts; centres that lost all their points are dropped."""
+    """Centres (k, 3) and the cluster of each point, the best of four starts."""
     from scipy.cluster.vq import kmeans2  # noqa: PLC0415  not needed for one body
     from scipy.spatial import cKDTree  # noqa: PLC0415
 
     rng = np.random.default_rng(seed)
-    runs = [kmeans2(points, k, iter=50, minit="++", missing="warn", rng=rng)[0] for _ in range(4)]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # an empty cluster is no fault here, but a run that will not win
+        runs = [kmeans2(points, k, iter=50, minit="++", missing="warn", rng=rng)[0] for _ in range(4)]
     found = [cKDTree(centres).query(points) for centres in runs]
     errors = [float(np.square(distance).sum()) for distance, _ in found]
     best = int(np.argmin(errors))
     return runs[best], np.asarray(found[best][1], dtype=np.intp)
 
 
-def _links(points: Floats) -> Ints:
-    """(m, 2) pairs of points that are neighbours of each other."""
-    from scipy.spatial import cKDTree  # noqa: PLC0415  as above
-
-    k = min(NEIGHBOURS, len(points) - 1)
-    distance, other = map(np.asarray, cKDTree(points).query(points, k + 1))
-    reach = np.median(distance[:, 1:], axis=1)
-    first = np.repeat(np.arange(len(points)), k)
-    second, length = other[:, 1:].ravel(), distance[:, 1:].ravel()
-    near = length <= REACH * np.minimum(reach[first], reach[second])
-    return np.stack([first[near], second[near]], axis=1).astype(np.intp)
-
-
-def _groups(links: Ints, label: Ints) -> tuple[int, Ints]:
-    """Connected components of labels joined by links."""
-    from scipy.sparse import coo_array  # noqa: PLC0415  as above
-    from scipy.sparse.csgraph import connected_components  # noqa: PLC0415
-
-    size = int(label.max()) + 1
-    pairs = label[links]
-    graph = coo_array((np.ones(len(pairs), dtype=np.int8), (pairs[:, 0], pairs[:, 1])), shape=(size, size))
-    count, group = connected_components(graph, directed=False)
-    return int(count), group.astype(np.intp)
-
-
-def _joined(label: Ints, links: Ints) -> tuple[int, Ints]:
-    """Join clusters that touch; groups too small for a body go to the largest one."""
-    _, group = _groups(links, label)
-    share = np.bincount(group[label]) / len(label)
-    body = np.flatnonzero(share >= MIN_SHARE)
-    number = np.full(len(share), int(np.argmax(share[body])))
-    number[body] = np.arange(len(body))
-    return len(body), number[group]
-
-
 def _assign(points: Floats, centres: Floats, body_of: Ints) -> tuple[Ints, ...]:
     """Every point to the body of its nearest centre."""
     from scipy.spatial import cKDTree  # noqa: PLC0415  as above
 
-    if body_of.max() == 0:
-        return (np.arange(len(points)),)
     body = body_of[cKDTree(centres).query(points)[1]]
-    found = [np.flatnonzero(body == b) for b in range(int(body.max()) + 1)]
+    found = [np.flatnonzero(body == b) for b in range(int(body_of.max()) + 1)]
     if min(map(len, found)) == 0:
         raise StageError(
             f"only {sum(len(f) > 0 for f in found)} of {len(found)} bodies got points; ask for fewer bodies",

@@ -14,10 +14,10 @@ from sketchloft.cloud import Floats
 from sketchloft.errors import StageError, UsageError
 from sketchloft.outer_contour import Contour, outer_contour
 from sketchloft.probe_radius import small_probe_radius
-from sketchloft.ring import ring_centre, ring_length
+from sketchloft.ring import ring_centre, ring_depth, ring_length
 from sketchloft.work_points import WorkedSlice
 
-__all__ = ["SKIN", "EdgePoints", "EdgePointsParams", "edge_points", "parse_probe_radius"]
+__all__ = ["EdgePoints", "EdgePointsParams", "edge_points", "parse_probe_radius"]
 
 ProbeRadius = Literal["auto"] | float | tuple[float, ...]
 
@@ -29,11 +29,15 @@ FEWEST_SHARE = 0.5
 GAP = 0.8
 """Empty area along a contour per edge point and point density, for a small probe; 1 for a hull (Efron)."""
 STEP, STEPS = 4.0, 4
-"""Factor between the probe radii that are tried on a skin, and their number."""
+"""Factor between the probe radii that are tried, and their number on either side of the rule's."""
 SKIN = 0.65
 """Sections whose alpha shape fills a smaller share than this of their outer contour are skins."""
 ACROSS = 1.3
 """Points side by side across the mean width of what may be a section; a skin that is open is thinner."""
+SHALLOW = 0.5
+"""Points less than this share as deep within their contours as evenly spread ones form a skin."""
+DEPTH_SAMPLE = 500
+"""Points and triangles of a slice that are asked how deep they lie."""
 CLOSED = 0.9
 """A skin is closed where its contour encloses this share of what it does where the skin is emptiest."""
 
@@ -68,8 +72,8 @@ class EdgePoints:
         the section, of the empty strip to be expected between the outermost points and the wall.
     left_out : int
         Number of other contours in the slice: holes and islands.
-    filled : float
-        Share of the area within the contour that the alpha shape fills.
+    filled : bool
+        Whether the points fill the sections of the body, so that gaps along the wall are to be expected.
     """
 
     height: float
@@ -77,7 +81,7 @@ class EdgePoints:
     points: Floats
     area: float
     left_out: int
-    filled: float
+    filled: bool
 
     @property
     def centre(self) -> Floats:
@@ -152,7 +156,7 @@ def edge_points(slices: Sequence[WorkedSlice], params: EdgePointsParams) -> tupl
     else:
         radii = _given(params.probe_radius, len(slices))
         contours = [_contour(s, r, i) for i, (s, r) in enumerate(zip(shapes, radii, strict=True))]
-    filled = not _is_skin(contours)
+    filled = not _is_skin(shapes, contours)
     return tuple(
         EdgePoints(
             worked.height,
@@ -160,7 +164,7 @@ def edge_points(slices: Sequence[WorkedSlice], params: EdgePointsParams) -> tupl
             contour.points,
             _accounted(contour, len(worked.points), float(radius)) if filled else contour.area,
             contour.left_out,
-            contour.filled,
+            filled,
         )
         for worked, radius, contour in zip(slices, radii, contours, strict=True)
     )
@@ -203,7 +207,7 @@ def _automatic(shapes: Sequence[AlphaComplex]) -> tuple[Floats, list[Contour]]:
     excess -= area * count / (count - on_close).clip(1)
     variance = area**2 * on_close / count**2
     near = np.abs(np.subtract.outer(np.arange(len(shapes)), np.arange(len(shapes)))) <= WINDOW
-    convex = (near @ excess < 2 * np.sqrt(near @ variance)) & (not _is_skin(close))
+    convex = (near @ excess < 2 * np.sqrt(near @ variance)) & (not _is_skin(shapes, close))
     contours = [
         hull if all_round else inner for hull, inner, all_round in zip(hulls, close, convex, strict=True)
     ]
@@ -214,14 +218,14 @@ def _smallest(shape: AlphaComplex, index: int) -> tuple[float, Contour]:
     """Small probe radius, larger where the section is a skin with gaps that the probe would fall through."""
     small = small_probe_radius(shape)
     limit = float(shape.radii[np.isfinite(shape.radii)].max())
-    radii = [small * STEP**k for k in range(STEPS) if small * STEP**k < limit]
+    radii = [radius for k in range(-STEPS, STEPS) if (radius := small * STEP**k) < limit]
     tried = [(radius, outer_contour(shape, radius)) for radius in radii]
     whole = [(radius, found) for radius, found in tried if found is not None and _is_section(found, shape)]
     if not whole:
         return limit, _contour(shape, limit, index)
     emptiest = min((found for _, found in whole), key=lambda found: found.filled)
     if emptiest.filled > SKIN:
-        return whole[0]
+        return next((radius, found) for radius, found in whole if radius >= small or found is whole[-1][1])
     return next((radius, found) for radius, found in whole if found.area >= CLOSED * emptiest.area)
 
 
@@ -246,10 +250,23 @@ def _contour(shape: AlphaComplex, radius: float, index: int) -> Contour:
     return found
 
 
-def _is_skin(contours: Sequence[Contour]) -> bool:
-    """Whether the sections are empty inside, all in all."""
+def _is_skin(shapes: Sequence[AlphaComplex], contours: Sequence[Contour]) -> bool:
+    """Whether the sections are empty inside: by area, or because the points do not lie deep in them."""
     area = np.array([contour.area for contour in contours])
-    return bool(np.array([contour.filled for contour in contours]) @ area < SKIN * area.sum())
+    if np.array([contour.filled for contour in contours]) @ area < SKIN * area.sum():
+        return True
+    depths = np.array([_depths(s, c) for s, c in zip(shapes, contours, strict=True)])
+    return bool(depths[:, 0] @ area < SHALLOW * (depths[:, 1] @ area))
+
+
+def _depths(shape: AlphaComplex, contour: Contour) -> tuple[float, float]:
+    """Mean depth of the points within the contour, and of points that would fill it evenly."""
+    points = shape.points[:: -(-len(shape.points) // DEPTH_SAMPLE)]
+    triangles = slice(None, None, -(-len(shape.simplices) // DEPTH_SAMPLE))
+    middles = shape.points[shape.simplices[triangles]].mean(axis=1)
+    depth = ring_depth(middles, contour.points).clip(0)
+    weight = shape.volumes[triangles] * (depth > 0)
+    return float(ring_depth(points, contour.points).clip(0).mean()), float(depth @ weight / weight.sum())
 
 
 def _accounted(contour: Contour, count: int, radius: float) -> float:

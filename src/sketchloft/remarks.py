@@ -6,7 +6,6 @@ import itertools
 
 import numpy as np
 
-from sketchloft.edge_points import SKIN
 from sketchloft.pipeline import BodyModel, Reconstruction
 
 __all__ = ["remarks"]
@@ -38,12 +37,9 @@ def remarks(result: Reconstruction) -> tuple[str, ...]:
 
 
 def _left_out(body: BodyModel) -> list[str]:
-    area = np.array([edge.area for edge in body.edges])
-    filled = float(np.array([edge.filled for edge in body.edges]) @ area / area.sum())
-    if filled < SKIN:
+    if not all(edge.filled for edge in body.edges):
         return [
-            f"edge points: the points fill {filled:.0%} of the sections, so they were taken for the skin of "
-            "a solid"
+            "edge points: the sections are empty inside, so the points were taken for the skin of a solid"
         ]
     slices = [i for i, edge in enumerate(body.edges) if edge.left_out]
     if not slices:

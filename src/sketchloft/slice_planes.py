@@ -28,8 +28,8 @@ SAMPLE = 20_000
 """Points that the 3D alpha shape is made of; it only has to show the overall shape."""
 BINS_PER_SLICE = 2
 OUTER = 0.95
-"""Quantile of the distances in a bin that stands for the section's reach: flat ends and the inner
-parts of a section hardly lower it, single stray points do not raise it."""
+"""Quantile of the distances that stands for the section's reach: the inner parts of a section hardly
+lower it, single stray points do not raise it."""
 LEVEL = 0.04
 """Differences of the profile below this share of its greatest value are no extrema."""
 JUMP = 3.0
@@ -169,7 +169,7 @@ def slice_planes(points: Floats, params: SlicePlanesParams) -> SlicePlanes:
             "the points per slice",
             stage=STAGE,
         )
-    return SlicePlanes(heights, keys, found)
+    return SlicePlanes(heights, keys[np.isin(keys, heights)], found)
 
 
 def surface_points(points: Floats) -> Floats:
@@ -212,7 +212,9 @@ def _axis_distance(points: Floats, rule: CentralAxis, bins: int) -> AxisDistance
     order = np.argsort(height, kind="stable")
     parts = [p for p in np.split(order, np.searchsorted(height[order], edges[1:-1])) if len(p)]
     heights = np.array([height[part].mean() for part in parts])
-    profile = np.array([np.quantile(distance[part], OUTER) for part in parts])
+    # A fixed rank, not a quantile: at a flat end the points of the whole face fall into one bin.
+    rank = max(2, round((1 - OUTER) * float(np.median([len(part) for part in parts]))))
+    profile = np.array([np.sort(distance[part])[-min(rank, len(part))] for part in parts])
     return AxisDistance(axis, surface, distance, heights, profile)
 
 
@@ -228,7 +230,7 @@ def _circle_centre(across: Floats) -> Floats:
 def _tolerance(profile: Floats) -> float:
     """Difference that chance alone makes between two bins, judged by the second differences."""
     sigma = 1.4826 * float(np.median(np.abs(np.diff(profile, 2)))) / np.sqrt(6)
-    return max(4 * sigma, LEVEL * float(profile.max()))
+    return max(6 * sigma, LEVEL * float(profile.max()))
 
 
 def _extrema(profile: Floats, tolerance: float) -> Ints:
@@ -255,9 +257,12 @@ def _steps(profile: Floats, tolerance: float) -> list[tuple[int, int]]:
     found: list[tuple[float, int, int]] = []
     for width in (1, 2):
         change = np.abs(profile[width:] - profile[:-width])
-        padded = np.r_[np.zeros(width), change, np.zeros(width)]
+        unknown = np.full(width, -np.inf)
+        padded = np.r_[unknown, change, unknown]
         beside = np.maximum(padded[: len(change)], padded[2 * width :])
-        jumps = np.flatnonzero((change > 2 * tolerance) & (change > JUMP * beside))
+        # At an end only one side shows how steep the profile is anyway, so that it has to show it twice.
+        at_end = np.isinf(padded[: len(change)]) | np.isinf(padded[2 * width :])
+        jumps = np.flatnonzero((change > 2 * tolerance) & (change > JUMP * (1 + at_end) * beside))
         found += [(-float(change[i]) / width, int(i), int(i) + width) for i in jumps]
     steps: list[tuple[int, int]] = []
     for _, low, high in sorted(found):

@@ -11,6 +11,6 @@ __all__ = ["face_kinds"]
 
 
 def face_kinds(solid: Solid) -> tuple[str, ...]:
-    """Kind of surface of each face, in the solid's order: "BSplineSurface", "Plane", ... as in `SolidFacts`."""
+    """Kind of surface of each face, in the solid's order, by the names that `SolidFacts` uses."""
     surfaces = (BRep_Tool.Surface_s(face) for face in faces_of(solid.shape))
     return tuple(type(surface).__name__.removeprefix("Geom_") for surface in surfaces)

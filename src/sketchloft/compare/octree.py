@@ -1,4 +1,4 @@
-"""Octree: full and void cubes, and the boundary between them, tried and dropped (paper, sections 3.3, 4)."""
+"""Octree: full and void cubes of a cloud (paper, section 3.3)."""
 
 from __future__ import annotations
 
@@ -9,9 +9,8 @@ from numpy.typing import NDArray
 
 from sketchloft.cloud import Floats, Ints
 from sketchloft.errors import CloudError, UsageError
-from sketchloft.mesh import Mesh
 
-__all__ = ["MAX_DEPTH", "Octree", "boundary_cells", "octree_boundary", "octree_cells"]
+__all__ = ["MAX_DEPTH", "Octree", "octree_cells"]
 
 MAX_DEPTH = 20
 """Three coordinates of this many bits fit a 64-bit key."""
@@ -26,17 +25,6 @@ SPREAD = (
     (2, 0x1249249249249249),
 )
 """Shifts and masks that move the bits of a number three places apart."""
-FACES = np.array(
-    [
-        [[1, 0, 0], [1, 1, 0], [1, 1, 1], [1, 0, 1]],
-        [[0, 0, 0], [0, 0, 1], [0, 1, 1], [0, 1, 0]],
-        [[0, 1, 0], [0, 1, 1], [1, 1, 1], [1, 1, 0]],
-        [[0, 0, 0], [1, 0, 0], [1, 0, 1], [0, 0, 1]],
-        [[0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]],
-        [[0, 0, 0], [0, 1, 0], [1, 1, 0], [1, 0, 0]],
-    ]
-)
-"""Corners of a cube's faces, counter-clockwise from outside: +x, -x, +y, -y, +z, -z."""
 
 
 @dataclass(frozen=True)
@@ -114,49 +102,6 @@ def octree_cells(points: Floats, depth: int | None = None) -> Octree:
     first = np.flatnonzero(np.r_[True, _differs(changed, depth)])
     counts = np.diff(np.r_[first, len(points)])
     return Octree(origin, side / 2**depth, depth, places[order[first]] >> (MAX_DEPTH - depth), counts)
-
-
-def boundary_cells(octree: Octree) -> NDArray[np.bool_]:
-    """(k,) whether each full cube has a void neighbour at one of its faces (paper, section 4)."""
-    return np.any(_at_void(octree), axis=0)
-
-
-def octree_boundary(octree: Octree) -> Mesh:
-    """Faces between full and void cubes, each as two triangles, the normals towards the void.
-
-    Parameters
-    ----------
-    octree : Octree
-
-    Returns
-    -------
-    Mesh
-        Closed, though cubes that share only an edge or a corner make it no manifold. It encloses the
-        full cubes. Voids inside are part of it, which is why the paper dropped it.
-    """
-    corners = np.concatenate(
-        [octree.cells[open_][:, None] + face for face, open_ in zip(FACES, _at_void(octree), strict=True)]
-    )
-    width = 2**octree.depth + 1
-    used, quads = np.unique(_keys(corners.reshape(-1, 3), width), return_inverse=True)
-    lattice = np.stack([used // width**2, used // width % width, used % width], axis=1)
-    return Mesh(
-        octree.origin + octree.edge * lattice,
-        quads.reshape(-1, 4)[:, [[0, 1, 2], [0, 2, 3]]].reshape(-1, 3),
-    )
-
-
-def _at_void(octree: Octree) -> list[NDArray[np.bool_]]:
-    """For each of the six `FACES`, which cubes (k,) have a void neighbour there."""
-    width = 2**octree.depth + 2  # a margin, so that the keys of neighbours beyond the edge are free
-    key = _keys(octree.cells + 1, width)
-    full = np.sort(key)
-    steps = [sign * width ** (2 - axis) for axis in range(3) for sign in (1, -1)]
-    return [full[np.searchsorted(full, key + step).clip(max=len(full) - 1)] != key + step for step in steps]
-
-
-def _keys(cells: Ints, width: int) -> Ints:
-    return np.asarray((cells[:, 0] * width + cells[:, 1]) * width + cells[:, 2])
 
 
 def _spread(places: Ints) -> Ints:

@@ -7,19 +7,17 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
-from sketchloft.alpha_shape import AlphaComplex, alpha_complex
+from sketchloft.alpha_shape import alpha_complex
 from sketchloft.closed_mesh import closed_mesh
 from sketchloft.cloud import CleanCloud, PointCloud, clean
-from sketchloft.compare.alpha_mesh import alpha_shape_mesh
 from sketchloft.compare.comparison import Comparison, Method, Row
-from sketchloft.compare.octree import boundary_cells, octree_boundary, octree_cells
+from sketchloft.compare.methods import LoftedModel, MethodModel, alpha_model, lofted_model, octree_model
 from sketchloft.compare.surface_facts import surface_facts
-from sketchloft.compare.void_cells import voids_inside
 from sketchloft.errors import ModelError, StageError, UsageError
 from sketchloft.measure import measure
 from sketchloft.mesh import Mesh
 
-__all__ = ["ComparisonParams", "LoftedModel", "compare", "parse_radii"]
+__all__ = ["ComparisonParams", "compare", "parse_radii"]
 
 
 @dataclass(frozen=True)
@@ -42,36 +40,10 @@ class ComparisonParams:
 
 
 @dataclass(frozen=True)
-class LoftedModel:
-    """What slice-and-loft made of the cloud.
-
-    Parameters
-    ----------
-    mesh : Mesh
-        Its surface as triangles, where the cloud is.
-    faces : int
-        Number of faces of the CAD model.
-    """
-
-    mesh: Mesh
-    faces: int
-
-
-@dataclass(frozen=True)
-class _Model:
-    """A surface, how many faces describe it, and what else there is to know."""
-
-    mesh: Mesh
-    faces: int
-    remark: str = ""
-    voids_inside: int | None = None
-
-
-@dataclass(frozen=True)
 class _Job:
     method: Method
     probe_radius: float | None
-    build: Callable[[], _Model]
+    build: Callable[[], MethodModel]
     seconds_before: float = 0.0
 
 
@@ -158,36 +130,13 @@ def _jobs(
     params: ComparisonParams,
 ) -> Iterator[_Job]:
     for radius in radii:
-        yield _Job("slice and loft", radius, partial(_lofted, loft, radius))
+        yield _Job("slice and loft", radius, partial(lofted_model, loft, radius))
     begun = time.perf_counter()
     shape = alpha_complex(cloud.points)
     seconds = time.perf_counter() - begun
     for radius in radii:
-        yield _Job("3D alpha shape", radius, partial(_alpha, cloud, shape, radius), seconds)
-    yield _Job("octree", None, partial(_octree, cloud, params.octree_depth))
-
-
-def _lofted(loft: Callable[[float], LoftedModel], radius: float) -> _Model:
-    model = loft(radius)
-    return _Model(model.mesh, model.faces)
-
-
-def _alpha(cloud: CleanCloud, shape: AlphaComplex, radius: float) -> _Model:
-    found = alpha_shape_mesh(shape, radius)
-    remark = f"largest of {found.left_out + 1} pieces, holds {found.share:.1%} of the points"
-    mesh = Mesh(found.mesh.vertices + cloud.centre, found.mesh.triangles)
-    return _Model(mesh, len(mesh.triangles), remark if found.left_out or found.share < 1 else "")
-
-
-def _octree(cloud: CleanCloud, depth: int | None) -> _Model:
-    tree = octree_cells(cloud.points, depth)
-    boundary = octree_boundary(tree)
-    remark = (
-        f"depth {tree.depth}, {len(tree.cells)} full cubes of {tree.edge:.3g} with "
-        f"{tree.counts.mean():.1f} points each, {boundary_cells(tree).sum()} of them on the boundary"
-    )
-    mesh = Mesh(boundary.vertices + cloud.centre, boundary.triangles)
-    return _Model(mesh, len(mesh.triangles) // 2, remark, voids_inside(tree))
+        yield _Job("3D alpha shape", radius, partial(alpha_model, cloud, shape, radius), seconds)
+    yield _Job("octree", None, partial(octree_model, cloud, params.octree_depth))
 
 
 def _outcome(job: _Job, goal: Mesh | None, params: ComparisonParams) -> tuple[Row, Mesh | None]:

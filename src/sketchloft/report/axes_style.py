@@ -11,6 +11,9 @@ from sketchloft.report.palette import GRID, INK, MUTED
 
 __all__ = ["heading", "legend_below", "style_axes"]
 
+LABELS = 4.5
+"""Room that tick labels and the axis label take below a panel, in sizes of the legend's letters."""
+
 
 def style_axes(ax: Axes, *, grid: bool = True) -> None:
     """Take away what is not needed to read a plot."""
@@ -46,7 +49,8 @@ def legend_below(ax: Axes, handles: Sequence[Artist] | None = None, *, columns: 
     ax.legend(
         handles=handles,
         loc="upper center",
-        bbox_to_anchor=(0.5, -0.14 if ax.axison else -0.02),
+        bbox_to_anchor=(0.5, 0),
+        borderaxespad=LABELS if ax.axison else 0.5,
         ncols=columns,
         frameon=False,
         fontsize=8,

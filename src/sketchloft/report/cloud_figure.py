@@ -63,22 +63,20 @@ def _axis(body: BodyModel) -> Floats:
 
 
 def _draw_slab(ax: Axes, body: BodyModel, pose: Pose, unit: Unit) -> None:
-    """Points near the plane through the axis that the plan shows edge-on, seen from the side."""
-    axis = pose.in_plan(body.planes.axis_distance.axis[None])[0]
-    half = SLAB / 2 * float(np.ptp(pose.in_plan(body.points[:, :2])[:, 1]))
+    """Points near the plane through the central axis in which the body is widest."""
+    axis = body.planes.axis_distance.axis
+    half = SLAB / 2 * float(np.ptp(body.points[:, 0]))
     for points, colour, size, name in (
         (body.points, CLOUD, 1.8, "cloud"),
         (body.planes.axis_distance.points, SURFACE, 3.0, "surface points"),
     ):
-        plan = pose.in_plan(points[:, :2])
-        near = np.abs(plan[:, 1] - axis[1]) <= half
-        right, up = thinned(plan[near, 0], MOST), thinned(pose.height(points[near, 2]), MOST)
+        near = thinned(points[np.abs(points[:, 1] - axis[1]) <= half], MOST)
+        right, up = near[:, 0] - axis[0], pose.height(near[:, 2])
         ax.scatter(right, up, s=size**2, c=colour, linewidths=0, label=name, rasterized=True, zorder=2)
     ends = pose.height(_axis(body)[:, 2])
-    ax.plot([axis[0]] * 2, ends, color=INK, linewidth=1.2, label="central axis", zorder=3)
-    ax.set_aspect("equal")
+    ax.plot([0, 0], ends, color=INK, linewidth=1.2, label="central axis", zorder=3)
+    ax.set_aspect("equal", "datalim")
     style_axes(ax)
-    right_label, _, height_label = pose.labels(unit)
-    ax.set(xlabel=right_label, ylabel=height_label)
+    ax.set(xlabel=f"across, from the central axis [{unit}]", ylabel=pose.labels(unit)[2])
     heading(ax, "Slab through the axis", f"{100 * SLAB:g} % of the width thick")
     legend_below(ax, columns=3)

@@ -29,8 +29,8 @@ CELL = 2.8
 """Width of a picture in inches."""
 FLATTEST, TALLEST = 0.5, 1.5
 """Limits of a picture's height, in widths."""
-TEXT = 0.75
-"""Height in inches of the lines above and below a picture."""
+MARGIN, NAME, TITLE, HEADING, CAPTION, LINE = 0.1, 0.35, 0.4, 0.3, 0.5, 0.15
+"""Inches around all, for a row's name, for the title, above and below a picture, for a further line."""
 PIXELS = 540
 """Resolution of a picture along its longer side."""
 INK, PALE = "0.12", "0.45"
@@ -82,20 +82,26 @@ def comparison_figure(comparison: Comparison, *, unit: Unit, title: str, camera:
     """Draw what `draw_comparison` writes."""
     bands = _bands(comparison, unit)
     low, high = _frame(comparison, camera)
+    tall = CELL * float(np.clip((high - low)[1] / (high - low)[0], FLATTEST, TALLEST))
     columns = max(len(cells) for _, cells in bands)
-    height = CELL * float(np.clip((high - low)[1] / (high - low)[0], FLATTEST, TALLEST)) + TEXT
-    figure = new_figure(0.4 + CELL * columns, 0.4 * bool(title) + height * len(bands))
-    # Two columns of the grid for each picture, so that a shorter band can stand in the middle.
-    grid = figure.add_gridspec(len(bands), 1 + 2 * columns, width_ratios=[0.12] + [0.5] * 2 * columns)
-    for i, (name, cells) in enumerate(bands):
-        label = figure.add_subplot(grid[i, 0])
-        label.set_axis_off()
-        label.text(0.5, 0.5, name, rotation=90, ha="center", va="center", fontsize=12, color=INK)
-        for k, cell in enumerate(cells):
-            start = 1 + columns - len(cells) + 2 * k
-            _draw(figure.add_subplot(grid[i, start : start + 2]), cell, camera, (low, high))
+    above = [HEADING * any(cell.heading for cell in cells) + MARGIN for _, cells in bands]
+    below = [CAPTION + LINE * max(cell.detail.count("\n") for cell in cells) for _, cells in bands]
+    width = NAME + CELL * columns + 2 * MARGIN
+    top = sum(above) + sum(below) + tall * len(bands) + TITLE * bool(title)
+    figure = new_figure(width, top)
+    figure.set_layout_engine("none")  # all places are known
     if title:
-        figure.suptitle(title, fontsize=13, color=INK)
+        figure.text(0.5, 1 - MARGIN / top, title, ha="center", va="top", fontsize=13, color=INK)
+    y = top - TITLE * bool(title)
+    for (name, cells), head, foot in zip(bands, above, below, strict=True):
+        y -= head + tall
+        middle = (MARGIN + NAME / 2) / width, (y + tall / 2) / top
+        figure.text(*middle, name, rotation=90, ha="center", va="center", fontsize=12, color=INK)
+        for k, cell in enumerate(cells):
+            x = MARGIN + NAME + CELL * (k + (columns - len(cells)) / 2)
+            ax = figure.add_axes((x / width, y / top, CELL / width, tall / top))
+            _draw(ax, cell, camera, (low, high))
+        y -= foot
     return figure
 
 
@@ -121,10 +127,17 @@ def _model(row: Row, mesh: Mesh | None, unit: Unit) -> _Cell:
         return _Cell(heading, "", "", row.remark, colour)
     figure = f"volume {row.volume:.4g} {unit}³"
     if row.errors is not None:
-        figure = f"rms {row.errors.rms:.3g} {unit}  ({row.rms_thousandths:.3g} ‰)"
+        figure = f"rms {_three(row.errors.rms)} {unit}  ({_three(row.rms_thousandths or 0.0)} ‰)"
     voids = "" if row.voids_inside is None else f",  {row.voids_inside:,} voids inside"
     detail = f"{row.faces:,} faces{voids},  {row.seconds:.2g} s"
+    if row.remark and row.probe_radius is not None:  # the octree's remark is too long for a picture
+        detail += "\n" + textwrap.fill(row.remark, 42)
     return _Cell(heading, figure, detail, mesh, colour, FACETS if row.method == "3D alpha shape" else CREASE)
+
+
+def _three(length: float) -> str:
+    """Three digits, zeros too, so that figures beside each other are of one length."""
+    return f"{length:#.3g}".rstrip(".")
 
 
 def _heading(row: Row, unit: Unit) -> str:
@@ -158,7 +171,7 @@ def _draw(ax: Axes, cell: _Cell, camera: Camera, frame: tuple[Floats, Floats]) -
     ax.set_axis_off()
     ax.set_aspect("equal")
     ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
-    ax.set_title(cell.heading, fontsize=11, color=INK, pad=3)
+    ax.set_title(cell.heading, fontsize=11, color=INK, pad=4)
     _write(ax, cell.figure, (0.5, 0), lift=-3, size=10, colour=INK)
     _write(ax, cell.detail, (0.5, 0), lift=-18, size=8.5, colour=PALE)
 

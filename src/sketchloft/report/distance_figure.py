@@ -1,4 +1,4 @@
-"""Picture of the distance to the central axis, by which the slice planes are located (paper, figures 5c to 7a)."""
+"""Picture of the distance to the central axis, which locates the slice planes (paper, figures 5c, 6, 7a)."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from sketchloft.cloud import Floats, Unit
 from sketchloft.pipeline import BodyModel, Reconstruction
-from sketchloft.report.axes_style import heading, style_axes
+from sketchloft.report.axes_style import style_axes
 from sketchloft.report.palette import INK, KEY, MUTED, PLANE, SURFACE
 from sketchloft.report.picture import new_figure
 from sketchloft.report.pose import pose_of
@@ -18,8 +18,8 @@ __all__ = ["distance_figure"]
 
 MOST = 12_000
 """Surface points that are drawn; an even sample stands for more."""
-NUMBERS = 16
-"""About how many slices are numbered along the top."""
+NUMBERS = 30
+"""How many slices along the top can be numbered."""
 
 
 def distance_figure(result: Reconstruction, body: BodyModel, *, unit: Unit) -> Figure:
@@ -81,11 +81,11 @@ def distance_figure(result: Reconstruction, body: BodyModel, *, unit: Unit) -> F
 
 
 def _number_slices(ax: Axes, planes: Floats) -> None:
-    """Number slices along the top, but none closer to the last numbered one than a NUMBERS-th of the whole."""
+    """Number the slices along the top, as many as have room."""
     least = float(np.ptp(planes)) / NUMBERS
     numbered = [0]
     for i in range(1, len(planes)):
-        if planes[i] - planes[numbered[-1]] >= 0.6 * least:
+        if planes[i] - planes[numbered[-1]] >= least:
             numbered.append(i)
     top = ax.secondary_xaxis("top")
     top.set_xticks(planes[numbered], [str(i) for i in numbered])

@@ -19,13 +19,15 @@ from sketchloft.report.words import FACE_WORDS
 
 __all__ = ["coloured_faces", "face_legend", "joined"]
 
+CHORD, ANGLE = 1e-3, 0.25
+"""How closely triangles follow the surface: no farther off than half a pixel of a picture."""
 SHADE = 0.94
 """Every other face is darker by this, so that neighbours of one kind are told apart."""
 
 
 def coloured_faces(solid: Solid, centre: Floats) -> tuple[Mesh, Floats]:
     """Triangles of a solid about a centre, and the colour (t, 3) of each by its face's kind."""
-    mesh, face = tessellate_faces(solid)
+    mesh, face = tessellate_faces(solid, CHORD, ANGLE)
     paint = np.array([to_rgb(FACES.get(kind, OTHER_FACE)) for kind in face_kinds(solid)])
     paint[1::2] *= SHADE
     return Mesh(mesh.vertices - centre, mesh.triangles), paint[face]

@@ -45,7 +45,7 @@ def loft_figure(result: Reconstruction, body: BodyModel, *, unit: Unit) -> Figur
     heading(curves, "Section curves", f"{len(body.sections)}, one on every slice plane")
     mesh, colours = coloured_faces(body.solid, result.cloud.centre)
     for ax, camera in ((front, FRONT), (behind, BEHIND)):
-        draw_mesh(ax, mesh, camera, colour=colours)
+        draw_mesh(ax, mesh, camera, colour=colours, pixels=480)
     heading(front, "Lofted solid", f"{sum(body.facts.faces.values())} faces, {body.facts.edges} edges")
     heading(behind, "The same solid", "from behind and below")
     finish_views([(curves, FRONT), (front, FRONT), (behind, BEHIND)], unit)

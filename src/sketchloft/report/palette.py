@@ -1,4 +1,4 @@
-"""Palette: one colour for each kind of thing, the same in all pictures, told apart by the colour-blind too."""
+"""Palette: one colour for each kind of thing, the same in all pictures, safe for the colour-blind."""
 
 from __future__ import annotations
 
@@ -47,6 +47,7 @@ FACES = {
 OTHER_FACE = "#c8c8c8"
 
 BODIES = (
-    "#77aadd", "#ee8866", "#44bb99", "#eedd88", "#b49ad0", "#99ddff", "#ffaabb", "#bbcc33", "#aaaa00", "#bbbbbb",
+    "#77aadd", "#ee8866", "#44bb99", "#eedd88", "#b49ad0",
+    "#99ddff", "#ffaabb", "#bbcc33", "#aaaa00", "#bbbbbb",
 )  # fmt: skip
 """Bodies by number (after P. Tol, Colour schemes, 2021, "light")."""

@@ -9,8 +9,8 @@ import numpy as np
 from sketchloft.cloud import Floats, Unit
 from sketchloft.frame import Frame
 from sketchloft.pipeline import BodyModel, Reconstruction
-from sketchloft.report.camera import Camera, project
-from sketchloft.report.words import axis_name
+from sketchloft.report.camera import Camera, axes, project
+from sketchloft.report.words import axis_name, place
 
 __all__ = ["Pose", "pose_of"]
 
@@ -53,13 +53,18 @@ class Pose:
         """Heights (...) in the body as coordinates of the cloud along the slicing direction."""
         return np.asarray(heights + self.centre @ self.frame.direction)
 
+    def height_words(self, height: float, body: BodyModel) -> str:
+        """One height, as exact as the body is large."""
+        low, high = body.planes.heights[[0, -1]]
+        return place(height + float(self.centre @ self.frame.direction), float(high - low))
+
     def labels(self, unit: Unit) -> tuple[str, str, str]:
         """Axis labels: to the right and up in the plan, and along the slicing direction."""
         name = axis_name(self.frame.direction)
         if not name:
             return f"across [{unit}]", f"across [{unit}]", f"height along the slicing direction [{unit}]"
-        right, up = (axis_name(axis) for axis in (np.cross(self.plan.up, self.frame.direction), self.plan.up))
-        return f"{right} [{unit}]", f"{up} [{unit}]", f"{name} [{unit}]"
+        right, up, _ = axes(self.plan)
+        return f"{axis_name(right)} [{unit}]", f"{axis_name(up)} [{unit}]", f"{name} [{unit}]"
 
 
 def pose_of(result: Reconstruction, body: BodyModel) -> Pose:

@@ -1,4 +1,4 @@
-"""Contact sheet of slices: worked points, edge points and the shape fitted to them (paper, figures 8 and 9a)."""
+"""Contact sheet of slices: worked points, edge points and fitted shapes (paper, figures 8 and 9a)."""
 
 from __future__ import annotations
 
@@ -9,14 +9,13 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Circle as Disc
 
 from sketchloft.cloud import Floats, Unit
-from sketchloft.edge_points import EdgePoints
 from sketchloft.pipeline import BodyModel, Reconstruction
 from sketchloft.report.axes_style import heading, style_axes
 from sketchloft.report.palette import CLOUD, EDGE, INK, PROBE
 from sketchloft.report.picture import new_figure
 from sketchloft.report.pose import Pose, pose_of
-from sketchloft.report.words import number, probe_words, shape_size
 from sketchloft.report.thinning import thinned
+from sketchloft.report.words import probe_words, shape_size
 
 __all__ = ["sections_figure"]
 
@@ -24,8 +23,6 @@ COLUMNS = 4
 MOST = 1_500
 """Worked points of a slice that are drawn; an even sample stands for more."""
 AROUND = np.arange(361) / 360
-TOUCH = np.pi / 4
-"""Towards this angle the probe is shown, where it touches the contour from outside."""
 
 
 def sections_figure(result: Reconstruction, body: BodyModel, *, unit: Unit, most: int = 12) -> Figure:
@@ -55,7 +52,8 @@ def sections_figure(result: Reconstruction, body: BodyModel, *, unit: Unit, most
         ax.set_axis_off()
     figure.supxlabel(pose.labels(unit)[0], fontsize=9, color=INK)
     figure.supylabel(pose.labels(unit)[1], fontsize=9, color=INK)
-    figure.legend(handles=_legend(), loc="outside upper center", ncols=4, frameon=False, fontsize=9)
+    with_probe = any(np.isfinite(body.edges[index].probe_radius) for index in chosen)
+    figure.legend(handles=_legend(with_probe), loc="outside upper center", ncols=4, frameon=False, fontsize=9)
     return figure
 
 
@@ -63,24 +61,19 @@ def _draw_slice(ax: Axes, body: BodyModel, index: int, pose: Pose, unit: Unit) -
     edge, shape = body.edges[index], body.sections[index].shape
     worked = pose.in_plan(thinned(body.worked[index].points, MOST))
     on_edge, outline = pose.in_plan(edge.points), pose.in_plan(shape.evaluate(AROUND))
-    ax.scatter(*worked.T, s=3, c=CLOUD, alpha=0.6, linewidths=0, rasterized=True, zorder=2)
-    ax.plot(*outline.T, color=INK, linewidth=1.3, zorder=3)
-    ax.scatter(*on_edge.T, s=9, c=EDGE, linewidths=0, rasterized=True, zorder=4)
-    ball = _probe(edge)
-    if ball is not None:
-        ax.add_patch(
-            Disc(tuple(pose.in_plan(ball[None])[0]), edge.probe_radius, fill=False, color=PROBE, zorder=5)
-        )
+    ax.scatter(worked[:, 0], worked[:, 1], s=3, c=CLOUD, alpha=0.6, linewidths=0, rasterized=True, zorder=2)
+    ax.plot(outline[:, 0], outline[:, 1], color=INK, linewidth=1.3, zorder=3)
+    ax.scatter(on_edge[:, 0], on_edge[:, 1], s=9, c=EDGE, linewidths=0, rasterized=True, zorder=4)
+    if np.isfinite(edge.probe_radius):
+        x, y = _probe(on_edge, edge.probe_radius)
+        ax.add_patch(Disc((x, y), edge.probe_radius, fill=False, color=PROBE, zorder=5))
     _fit(ax, np.concatenate([worked, outline]))
     style_axes(ax)
     ax.tick_params(labelsize=7)
-    ax.locator_params(nbins=4)
-    height = number(float(pose.height(np.float64(edge.height))))
-    heading(
-        ax,
-        f"slice {index}: {shape.kind}",
-        f"at {height} {unit} · probe {probe_words(edge.probe_radius, unit)}",
-    )
+    ax.locator_params(nbins=3)
+    height = pose.height_words(edge.height, body)
+    probe = probe_words(edge.probe_radius, unit)
+    heading(ax, f"slice {index}: {shape.kind}", f"at {height} {unit}, probe {probe}")
     ax.annotate(
         shape_size(shape, unit),
         (0.5, 0.02),
@@ -93,19 +86,15 @@ def _draw_slice(ax: Axes, body: BodyModel, index: int, pose: Pose, unit: Unit) -
     )
 
 
-def _probe(edge: EdgePoints) -> Floats | None:
+def _probe(ring: Floats, radius: float) -> Floats:
     """Centre of the probe where it rests on two neighbouring edge points, towards the upper right."""
-    if not np.isfinite(edge.probe_radius):
-        return None
-    ring = edge.points - edge.centre
     onward = np.roll(ring, -1, axis=0) - ring
     length = np.linalg.norm(onward, axis=1)
     middle = ring + onward / 2
-    towards = middle @ [np.cos(TOUCH), np.sin(TOUCH)]
-    at = int(np.argmax(np.where(length < 2 * edge.probe_radius, towards, -np.inf)))
+    towards = np.where(length < 2 * radius, middle @ [1, 1], -np.inf)
+    at = int(np.argmax(towards))
     outward = np.array([onward[at, 1], -onward[at, 0]]) / length[at]
-    rise = np.sqrt(max(edge.probe_radius**2 - (length[at] / 2) ** 2, 0.0))
-    return np.asarray(edge.centre + middle[at] + rise * outward)
+    return np.asarray(middle[at] + np.sqrt(max(radius**2 - (length[at] / 2) ** 2, 0.0)) * outward)
 
 
 def _fit(ax: Axes, points: Floats) -> None:
@@ -117,11 +106,18 @@ def _fit(ax: Axes, points: Floats) -> None:
     ax.set_aspect("equal")
 
 
-def _legend() -> list[Line2D]:
-    dot = {"linestyle": "none", "marker": "o"}
-    return [
-        Line2D([], [], color=CLOUD, markersize=4, label="worked points", **dot),
-        Line2D([], [], color=EDGE, markersize=5, label="edge points", **dot),
-        Line2D([], [], color=INK, linewidth=1.3, label="fitted shape"),
-        Line2D([], [], color=PROBE, markersize=10, fillstyle="none", label="probe at rest", **dot),
-    ]
+def _legend(with_probe: bool) -> list[Line2D]:
+    worked = Line2D([], [], color=CLOUD, marker="o", linestyle="none", markersize=4, label="worked points")
+    edge = Line2D([], [], color=EDGE, marker="o", linestyle="none", markersize=5, label="edge points")
+    shape = Line2D([], [], color=INK, linewidth=1.3, label="fitted shape")
+    probe = Line2D(
+        [],
+        [],
+        color=PROBE,
+        marker="o",
+        linestyle="none",
+        markersize=10,
+        fillstyle="none",
+        label="probe at rest",
+    )
+    return [worked, edge, shape, *([probe] if with_probe else [])]

@@ -13,9 +13,9 @@ from sketchloft.report.camera import FRONT
 from sketchloft.report.palette import CLOUD, EDGE, KEY, PLANE
 from sketchloft.report.picture import new_figure
 from sketchloft.report.pose import Pose, pose_of
+from sketchloft.report.thinning import thinned
 from sketchloft.report.view3d import draw_points
 from sketchloft.report.views import finish_views
-from sketchloft.report.thinning import thinned
 
 __all__ = ["side_figure"]
 
@@ -42,18 +42,17 @@ def side_figure(result: Reconstruction, body: BodyModel, *, unit: Unit) -> Figur
     edges = _stacked([e.points for e in body.edges], body.planes.heights)
     figure = new_figure(11.5, 4.8)
     planes, side, space = figure.subplots(1, 3)
-    side.sharex(planes)
-    side.sharey(planes)
-    _draw_side(planes, body.points, pose, CLOUD, 1.4, "cloud")
+    _draw_side(planes, pose, body.points, CLOUD, "cloud")
     _draw_planes(planes, body, pose)
     heading(planes, "Slice planes", f"{len(body.planes.heights)} planes across the slicing direction")
-    _draw_side(side, worked, pose, CLOUD, 1.4, "worked points")
-    _draw_side(side, edges, pose, EDGE, 2.4, "edge points")
+    _draw_side(side, pose, worked, CLOUD, "worked points")
+    _draw_side(side, pose, edges, EDGE, "edge points")
     heading(
         side, "Worked points and edge points", f"{len(worked):,} points moved onto {len(body.worked)} planes"
     )
+    side.dataLim = planes.dataLim
     for ax in (planes, side):
-        ax.set_aspect("equal")
+        ax.set_aspect("equal", "datalim")
         style_axes(ax, grid=False)
         ax.set_xlabel(pose.labels(unit)[0])
         legend_below(ax, columns=3)
@@ -70,10 +69,11 @@ def _stacked(parts: list[Floats], heights: Floats) -> Floats:
     return np.column_stack([np.concatenate(parts), rise])
 
 
-def _draw_side(ax: Axes, points: Floats, pose: Pose, colour: str, size: float, name: str) -> None:
+def _draw_side(ax: Axes, pose: Pose, points: Floats, colour: str, name: str) -> None:
     shown = thinned(points, MOST)
     right, up = pose.in_plan(shown[:, :2])[:, 0], pose.height(shown[:, 2])
-    ax.scatter(right, up, s=size**2, c=colour, linewidths=0, rasterized=True, label=name, zorder=2)
+    size = 5.0 if colour == EDGE else 2.0
+    ax.scatter(right, up, s=size, c=colour, linewidths=0, rasterized=True, label=name, zorder=2)
 
 
 def _draw_planes(ax: Axes, body: BodyModel, pose: Pose) -> None:

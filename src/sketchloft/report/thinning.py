@@ -10,5 +10,5 @@ __all__ = ["thinned"]
 
 
 def thinned(points: Floats, most: int) -> Floats:
-    """Every k-th of points (n, ...), so that at most so many are left; even, as clouds are in canonical order."""
+    """Every k-th of points (n, ...), so that at most so many are left; even for points in canonical order."""
     return np.asarray(points[:: max(1, -(-len(points) // most))])

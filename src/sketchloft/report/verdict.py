@@ -1,0 +1,116 @@
+"""Verdict: what came out and how far it is to be trusted, on top of the report."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+import numpy as np
+
+from sketchloft.cloud import Unit
+from sketchloft.measure import Measurement
+from sketchloft.pipeline import BodyModel, Reconstruction
+from sketchloft.remarks import remarks
+from sketchloft.report.evidence import diagonal, slice_evidence, total_rms
+from sketchloft.report.markup import bullets, figures, paragraph, picture, section, table
+from sketchloft.report.overview_figure import overview_figure
+from sketchloft.report.words import FACE_WORDS, TIMES, number
+
+__all__ = ["trust", "verdict"]
+
+
+def verdict(result: Reconstruction, unit: Unit, measurement: Measurement | None) -> str:
+    """Whether the model is valid, its key figures and its picture."""
+    bodies = result.bodies
+    found = "Valid solid" if len(bodies) == 1 else f"{len(bodies)} valid solids"
+    if len(bodies) == 1:
+        figured = figures(_key_figures(bodies[0], unit) | _measured(measurement, unit))
+    else:
+        rows = [[body.name, *_key_figures(body, unit).values()] for body in bodies]
+        head = ["body", *_key_figures(bodies[0], unit)]
+        figured = table(head, rows, caption="Key figures of every body", numbers=[2, 3, 4])
+        figured = (figures(_measured(measurement, unit)) if measurement else "") + figured
+    checks = (
+        "Checked before it was given out: one closed shell without free edges, accepted by the CAD kernel, "
+        "normals outwards, sections that do not cut themselves, a volume equal to that of the sections, and "
+        "a surface that passes through all of them."
+    )
+    names = ", ".join(body.name for body in bodies)
+    shown = picture(
+        overview_figure(result, unit=unit),
+        f"The points of the cloud on the left, the model of {names} on the right",
+        "The cloud as it was read, and the model that was made of it, from the same side at the same scale.",
+    )
+    return "\n".join([paragraph(found, "verdict"), figured, paragraph(checks), shown])
+
+
+def trust(result: Reconstruction, unit: Unit) -> str:
+    """What was left out, and how well the shapes fit the points."""
+    found = remarks(result)
+    said = bullets(found, "remarks") if found else paragraph("Nothing was left out on the way.")
+    rows = [_trust_row(body, unit) for body in result.bodies]
+    head = [
+        "body",
+        "points",
+        "slices",
+        "fewest points",
+        "fewest edge points",
+        f"rms [{unit}]",
+        "rms [‰]",
+        "worst slice",
+    ]
+    grounds = table(
+        head,
+        rows,
+        caption="What the model rests on. rms: distance of the edge points from the shapes fitted to them, "
+        "also in thousandths of the model's diagonal; the worst slice is the one with the largest.",
+        numbers=[1, 2, 3, 4, 5, 6, 7],
+    )
+    caution = paragraph(
+        "These figures say how well the shapes fit the points that were found. How far the model is from "
+        "what was meant, only a measurement against a goal can say. Between slices the model is lofted and "
+        "has no evidence of its own: what is smaller than the distance of the slices is not in it."
+    )
+    return section("How far to trust it", said, grounds, caution, anchor="trust")
+
+
+def face_words(body: BodyModel) -> str:
+    """Faces of a body by kind, the most frequent first."""
+    kinds = Counter(body.facts.faces).most_common()
+    return ", ".join(f"{count} {FACE_WORDS.get(kind, kind)}" for kind, count in kinds)
+
+
+def _key_figures(body: BodyModel, unit: Unit) -> dict[str, str]:
+    facts = body.facts
+    box = f" {TIMES} ".join(number(float(c)) for c in facts.bounds[1] - facts.bounds[0])
+    return {
+        "faces": f"{sum(facts.faces.values())} ({face_words(body)})",
+        f"volume [{unit}³]": number(facts.volume, 5),
+        f"area [{unit}²]": number(facts.area, 5),
+        f"box [{unit}]": box,
+    }
+
+
+def _measured(measurement: Measurement | None, unit: Unit) -> dict[str, str]:
+    if measurement is None:
+        return {}
+    rms, share = measurement.errors.rms, measurement.errors_in_thousandths.rms
+    return {
+        f"rms error against the goal [{unit}]": f"{number(rms, 3)} ({number(share, 3)} ‰ of its diagonal)"
+    }
+
+
+def _trust_row(body: BodyModel, unit: Unit) -> list[str]:
+    slices = slice_evidence(body)
+    points, edges = [one.points for one in slices], [one.edge_points for one in slices]
+    rms = total_rms(slices)
+    worst = int(np.argmax([one.rms for one in slices]))
+    return [
+        body.name,
+        f"{len(body.points):,}",
+        str(len(slices)),
+        f"{min(points):,} (slice {int(np.argmin(points))})",
+        f"{min(edges):,} (slice {int(np.argmin(edges))})",
+        number(rms, 3),
+        number(1000 * rms / diagonal(body), 3),
+        f"{worst}: {number(slices[worst].rms, 3)} {unit}",
+    ]

@@ -14,6 +14,9 @@ from sketchloft.cloud import Floats, Ints
 
 __all__ = ["AlphaComplex", "alpha_complex", "boundary_facets", "circumradii", "components"]
 
+FLAT = 1e-4
+"""Simplices below this share of the mean volume are flat: rounding, to single precision, decides on them."""
+
 
 @dataclass(frozen=True)
 class AlphaComplex:
@@ -44,7 +47,7 @@ class AlphaComplex:
 
     def inside(self, probe_radius: float) -> Ints:
         """Return the indices of the simplices that a probe of this radius cannot enter."""
-        return np.flatnonzero(self.radii <= probe_radius)
+        return _with_flat(self, np.flatnonzero(self.radii <= probe_radius))
 
 
 def alpha_complex(points: Floats) -> AlphaComplex:
@@ -160,3 +163,25 @@ def _opposite(corners: Ints, k: int) -> Ints:
     """Facet opposite corner k, turned so that it looks outwards."""
     facet = np.delete(corners, k)
     return facet if k % 2 == 0 else np.r_[facet[1], facet[0], facet[2:]]
+
+
+def _with_flat(shape: AlphaComplex, kept: Ints) -> Ints:
+    """Keep flat simplices that kept ones enclose, and no others.
+
+    Eight points of a regular grid lie on one ball; cut into simplices, some are flat. Their own radius
+    says nothing, they lie on the ball of their neighbours. Left out inside they would be slits; kept at
+    the surface their sides would be arbitrary.
+    """
+    flat = np.append(shape.volumes <= FLAT * shape.volumes.mean(), False)
+    if not flat.any():
+        return kept
+    is_kept = flat.copy()  # the extra last entry stands for "-1, outside the hull"
+    is_kept[kept] = True
+    exposed = np.flatnonzero(flat)
+    while len(exposed):
+        exposed = exposed[is_kept[exposed]]
+        exposed = exposed[~is_kept[shape.neighbours[exposed]].all(axis=1)]
+        is_kept[exposed] = False
+        exposed = np.unique(shape.neighbours[exposed])
+        exposed = exposed[flat[exposed]]
+    return np.flatnonzero(is_kept)

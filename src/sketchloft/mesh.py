@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from sketchloft.cloud import Floats, Ints
 
-__all__ = ["Mesh"]
+__all__ = ["Mesh", "concatenated"]
 
 
 @dataclass(frozen=True)
@@ -46,3 +47,11 @@ class Mesh:
     def size(self) -> float:
         """Diagonal of the bounding box."""
         return float(np.linalg.norm(np.ptp(self.vertices, axis=0)))
+
+
+def concatenated(meshes: Sequence[Mesh]) -> Mesh:
+    """One mesh of several, at least one."""
+    sizes = [len(mesh.vertices) for mesh in meshes]
+    starts = np.cumsum([0, *sizes[:-1]])
+    triangles = [mesh.triangles + start for mesh, start in zip(meshes, starts, strict=True)]
+    return Mesh(np.concatenate([mesh.vertices for mesh in meshes]), np.concatenate(triangles))

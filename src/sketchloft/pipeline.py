@@ -14,11 +14,12 @@ from sketchloft.direction import Direction, DirectionParams, slicing_direction
 from sketchloft.edge_points import EdgePoints, EdgePointsParams, edge_points
 from sketchloft.errors import StageError
 from sketchloft.frame import Frame, frame_along
-from sketchloft.loft import LoftParams, Section, loft
+from sketchloft.loft import LoftParams, Section
 from sketchloft.shapes.choice import ShapesParams
 from sketchloft.shapes.recognise import recognise
 from sketchloft.slice_planes import SlicePlanes, SlicePlanesParams, slice_planes
 from sketchloft.surface import SkinSurface
+from sketchloft.untangle import untangled
 from sketchloft.work_points import WorkedSlice, WorkPointsParams, follow_slope, work_points
 
 if TYPE_CHECKING:  # the kernel takes most of a second to load
@@ -185,7 +186,7 @@ def _body(name: str, points: Floats, centre: Floats, params: Params, progress: P
     shapes = recognise(edges, planes.key_heights, params.shapes)
     sections = tuple(Section(edge.height, shape) for edge, shape in zip(edges, shapes, strict=True))
     progress("loft")
-    surface = loft(sections, params.loft)
+    sections, surface = untangled(sections, edges, params.loft)
     progress("solid")
     from sketchloft.brep.build import built  # noqa: PLC0415  the kernel takes most of a second to load
 

@@ -8,13 +8,11 @@ import os
 from collections.abc import Sequence
 from pathlib import Path
 
-import numpy as np
-
 from sketchloft.brep.format import MODEL_FORMATS, format_of
 from sketchloft.brep.model import METRES, Fineness, Model, NamedSolid
 from sketchloft.cloud import Unit
 from sketchloft.errors import InputError, OutputError
-from sketchloft.mesh import Mesh
+from sketchloft.mesh import Mesh, concatenated
 
 __all__ = ["check_outputs", "load_mesh", "read_model", "write_model"]
 
@@ -153,7 +151,7 @@ def load_mesh(
     chosen = format_of(path, [one for one in MODEL_FORMATS if one.reads], InputError)
     if chosen.reads == "solids":
         model = read_model(path)
-        mesh = _concatenated(_meshes(model, Fineness(chord, angle)))
+        mesh = concatenated(_meshes(model, Fineness(chord, angle)))
         scale = METRES[model.unit] / METRES[unit] if model.unit and unit else 1.0
         return mesh if scale == 1.0 else Mesh(mesh.vertices * scale, mesh.triangles)
     try:
@@ -168,10 +166,3 @@ def _meshes(model: Model, fineness: Fineness) -> tuple[Mesh, ...]:
     from sketchloft.brep.tessellate import tessellate  # noqa: PLC0415 - the kernel only where it is needed
 
     return tuple(tessellate(body.solid, fineness.chord, fineness.angle) for body in model.bodies)
-
-
-def _concatenated(meshes: Sequence[Mesh]) -> Mesh:
-    sizes = [len(mesh.vertices) for mesh in meshes]
-    starts = np.cumsum([0, *sizes[:-1]])
-    triangles = [mesh.triangles + start for mesh, start in zip(meshes, starts, strict=True)]
-    return Mesh(np.concatenate([mesh.vertices for mesh in meshes]), np.concatenate(triangles))

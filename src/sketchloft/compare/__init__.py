@@ -3,6 +3,7 @@
 from sketchloft.compare.comparison import METHODS, Comparison, Method, Row
 from sketchloft.compare.methods import LoftedModel
 from sketchloft.compare.side_by_side import ComparisonParams, compare, parse_radii
+from sketchloft.compare.slice_and_loft import slice_and_loft
 
 __all__ = [
     "METHODS",
@@ -13,4 +14,5 @@ __all__ = [
     "Row",
     "compare",
     "parse_radii",
+    "slice_and_loft",
 ]

@@ -7,15 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from sketchloft.alpha_shape import AlphaComplex, boundary_facets, components
-from sketchloft.cloud import Ints
 from sketchloft.errors import StageError
 from sketchloft.mesh import Mesh
 from sketchloft.probe_radius import small_probe_radius
 
 __all__ = ["AlphaMesh", "alpha_shape_mesh"]
-
-FLAT = 1e-4
-"""Simplices below this share of the mean volume are flat: rounding, to single precision, decides on them."""
 
 
 @dataclass(frozen=True)
@@ -62,7 +58,7 @@ def alpha_shape_mesh(shape: AlphaComplex, probe_radius: float) -> AlphaMesh:
     H. Edelsbrunner, E. P. Mücke, Three-dimensional alpha shapes, ACM Transactions on Graphics
     13(1), 1994.
     """
-    kept = _with_flat(shape, shape.inside(probe_radius))
+    kept = shape.inside(probe_radius)
     if len(kept) == 0:
         raise StageError(
             f"a probe of radius {probe_radius:.4g} leaves nothing of the {len(shape.points)} points; use a "
@@ -75,23 +71,3 @@ def alpha_shape_mesh(shape: AlphaComplex, probe_radius: float) -> AlphaMesh:
     held[shape.simplices[piece]] = True
     used, corners = np.unique(boundary_facets(shape, piece), return_inverse=True)
     return AlphaMesh(Mesh(shape.points[used], corners.reshape(-1, 3)), int(label.max()), float(held.mean()))
-
-
-def _with_flat(shape: AlphaComplex, kept: Ints) -> Ints:
-    """Keep flat simplices that kept ones enclose, and no others.
-
-    Eight points of a regular grid lie on one ball; cut into simplices, some are flat. Their own radius
-    says nothing, they lie on the ball of their neighbours. Left out inside they would be slits; kept at
-    the surface their sides would be arbitrary.
-    """
-    flat = np.append(shape.volumes <= FLAT * shape.volumes.mean(), False)
-    is_kept = flat.copy()  # the extra last entry stands for "-1, outside the hull"
-    is_kept[kept] = True
-    exposed = np.flatnonzero(flat)
-    while len(exposed):
-        exposed = exposed[is_kept[exposed]]
-        exposed = exposed[~is_kept[shape.neighbours[exposed]].all(axis=1)]
-        is_kept[exposed] = False
-        exposed = np.unique(shape.neighbours[exposed])
-        exposed = exposed[flat[exposed]]
-    return np.flatnonzero(is_kept)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import Counter
+
 import numpy as np
 
 from sketchloft.cloud import Unit
@@ -48,8 +50,9 @@ def _direction(body: BodyModel) -> list[str]:
     return [
         paragraph(
             f"Of {counted(len(rows), 'candidate')}, {words} was taken. The target function is small where the "
-            "section changes least from one slab to the next and stays one simple contour; of directions that "
-            "are equally good, the axis of the cloud along which the body is longest is taken."
+            "section changes least from one slab to the next and stays one simple contour. Values that chance "
+            "alone could tell apart count as equal; then the axis of the cloud along which the body is longest "
+            "is taken."
         ),
         table(
             ["direction", "kind", "target function", ""],
@@ -89,6 +92,8 @@ def _points(result: Reconstruction, body: BodyModel, unit: Unit) -> list[str]:
     worked = sum(len(one.points) for one in body.worked)
     edges = sum(len(one.points) for one in body.edges)
     left_out = sum(one.left_out for one in body.edges)
+    area = np.array([one.area for one in body.edges])
+    filled = float(np.array([one.filled for one in body.edges]) @ area / area.sum())
     others = (
         f"{counted(left_out, 'further contour')} were left out." if left_out else "No contour was left out."
     )
@@ -96,7 +101,8 @@ def _points(result: Reconstruction, body: BodyModel, unit: Unit) -> list[str]:
         paragraph(
             f"Every point goes to the nearest plane, which puts {worked:,} points on {len(body.worked)} planes. "
             f"On each, the probe of a 2D alpha shape is rolled around the points; the {edges:,} that it touches "
-            f"from outside, in order, are the contour of the section. {others}"
+            f"from outside, in order, are the contour of the section. {others} The points fill {100 * filled:.0f} % of the "
+            "area within the contours."
         ),
         picture(
             side_figure(result, body, unit=unit),
@@ -109,12 +115,13 @@ def _points(result: Reconstruction, body: BodyModel, unit: Unit) -> list[str]:
 
 def _shapes(result: Reconstruction, body: BodyModel, unit: Unit) -> list[str]:
     slices = slice_evidence(body)
-    kinds = sorted({one.shape.kind for one in slices})
+    kinds = Counter(one.shape.kind for one in slices).most_common()
+    words = " and ".join(counted(count, kind) for kind, count in kinds)
     pose, size = pose_of(result, body), diagonal(body)
     rows = [_slice_row(one, pose.height_words(one.height, body), size, unit) for one in slices]
     return [
         paragraph(
-            f"Each contour is described by a shape, here {' or '.join(kinds)}. The edge points are the outermost "
+            f"Each contour is described by a shape, here {words}. The edge points are the outermost "
             "ones that were drawn, so the wall lies a little beyond them: the shape is moved outwards until it "
             "encloses the area that the points account for. Edge points inside their shape by a small, even "
             "distance are therefore no fault; scatter is."
@@ -134,13 +141,13 @@ def _shapes(result: Reconstruction, body: BodyModel, unit: Unit) -> list[str]:
         table(
             [
                 "slice", f"height [{unit}]", "points", "edge points", "left out", "probe radius",
-                "shape", "size", f"rms [{unit}]", "rms [‰]", f"mean [{unit}]",
+                "shape", f"rms [{unit}]", "rms [‰]", f"mean [{unit}]",
             ],
             rows,
             caption="Every slice. Left out: contours other than the outer one. rms and mean: distance of the edge "
             "points from the shape, negative inside; ‰ of the model's diagonal. A dot marks planes at ends, "
             "extrema and steps.",
-            numbers=[0, 1, 2, 3, 4, 5, 8, 9, 10],
+            numbers=[0, 1, 2, 3, 4, 5, 7, 8, 9],
         ),
     ]  # fmt: skip
 
@@ -153,8 +160,7 @@ def _slice_row(one: SliceEvidence, height: str, size: float, unit: Unit) -> list
         f"{one.edge_points:,}",
         str(one.left_out),
         probe_words(one.probe_radius, unit),
-        one.shape.kind,
-        shape_size(one.shape, unit),
+        f"{one.shape.kind}, {shape_size(one.shape, unit)}",
         number(one.rms, 3),
         number(1000 * one.rms / size, 3),
         number(one.mean, 3),

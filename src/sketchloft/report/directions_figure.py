@@ -13,7 +13,7 @@ from sketchloft.errors import UsageError
 from sketchloft.pipeline import Reconstruction
 from sketchloft.report.axes_style import heading
 from sketchloft.report.camera import FRONT
-from sketchloft.report.faces import coloured_faces
+from sketchloft.report.faces import CREASE, coloured_faces
 from sketchloft.report.loft_figure import draw_sections
 from sketchloft.report.palette import INK
 from sketchloft.report.picture import new_figure
@@ -58,7 +58,7 @@ def directions_figure(results: Sequence[Reconstruction], *, unit: Unit) -> Figur
         body = result.bodies[0]
         draw_sections(above, body, pose_of(result, body), FRONT)
         mesh, colours = coloured_faces(body.solid, result.cloud.centre)
-        draw_mesh(below, mesh, FRONT, colour=colours, pixels=480)
+        draw_mesh(below, mesh, FRONT, colour=colours, crease=CREASE, pixels=480)
         vector = body.direction.vector
         heading(above, f"sliced along {direction_words(vector)}", _judgement(vector, judged))
         heading(below, f"volume {number(body.facts.volume)} {unit}³", f"{len(body.sections)} sections lofted")

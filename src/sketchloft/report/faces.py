@@ -17,10 +17,12 @@ from sketchloft.mesh import Mesh
 from sketchloft.report.palette import FACES, OTHER_FACE
 from sketchloft.report.words import FACE_WORDS
 
-__all__ = ["coloured_faces", "face_legend", "joined"]
+__all__ = ["CREASE", "coloured_faces", "face_legend", "joined"]
 
-CHORD, ANGLE = 1e-3, 0.25
+CHORD, ANGLE = 1e-3, 0.2
 """How closely triangles follow the surface: no farther off than half a pixel of a picture."""
+CREASE = 15.0
+"""Edges between triangles of one face are smoother than this, in degrees; sharper ones are edges of faces."""
 SHADE = 0.94
 """Every other face is darker by this, so that neighbours of one kind are told apart."""
 

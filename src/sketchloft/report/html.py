@@ -16,7 +16,7 @@ from sketchloft.pipeline import Reconstruction
 from sketchloft.report.body_story import body_story
 from sketchloft.report.camera import BEHIND, FRONT
 from sketchloft.report.error_map import error_map_figure
-from sketchloft.report.markup import paragraph, picture, section, table
+from sketchloft.report.markup import figures, paragraph, picture, section, table
 from sketchloft.report.page import page
 from sketchloft.report.verdict import trust, verdict
 from sketchloft.report.words import counted, number, place
@@ -93,29 +93,31 @@ def _title(result: Reconstruction) -> str:
 
 def _input(result: Reconstruction, unit: Unit) -> str:
     cloud = result.cloud
-    rows = [
-        ["read", f"{cloud.n_read:,}"],
-        ["not finite, left out", f"{cloud.n_not_finite:,}"],
-        ["repeated, left out", f"{cloud.n_repeated:,}"],
-        ["used", f"{len(cloud):,}"],
-    ]
+    counts = {
+        "read": cloud.n_read,
+        "not finite, left out": cloud.n_not_finite,
+        "repeated, left out": cloud.n_repeated,
+        "used": len(cloud),
+    }
     centre = ", ".join(place(float(c), cloud.size) for c in cloud.centre)
     return section(
         "Input",
-        paragraph(f"The cloud is {number(cloud.size)} {unit} across, about ({centre}) {unit}."),
-        table(["points", "number"], rows, caption="What was read.", numbers=[1]),
+        paragraph(
+            f"The points lie around ({centre}); the box that holds them has a diagonal of {number(cloud.size)} {unit}."
+        ),
+        figures({name: (f"{count:,}", "points") for name, count in counts.items()}),
         anchor="input",
     )
 
 
 def _bodies(result: Reconstruction, unit: Unit) -> str:
     bodies = result.bodies
-    asked = result.params.bodies.bodies
-    how = (
-        "as asked for"
-        if asked != "auto"
-        else "found automatically: parts of the cloud with a gap around them"
-    )
+    if result.params.bodies.bodies != "auto":
+        how = f"{counted(len(bodies), 'body was', 'bodies were')} asked for."
+    elif len(bodies) == 1:
+        how = "No gap runs through the cloud, so it was taken for one body."
+    else:
+        how = f"Gaps run through the cloud, so it was taken for {len(bodies)} bodies."
     rows = [
         [
             body.name,
@@ -127,7 +129,7 @@ def _bodies(result: Reconstruction, unit: Unit) -> str:
     ]
     return section(
         "Bodies",
-        paragraph(f"The cloud was taken for {counted(len(bodies), 'body', 'bodies')}, {how}."),
+        paragraph(how),
         table(
             ["body", "points", *(f"{axis} [{unit}]" for axis in "xyz")],
             rows,
@@ -144,12 +146,12 @@ def _measured(measured: Measurement, unit: Unit) -> str:
         ["goal from model", *_errors(measured.back_errors, measured.back_errors_in_thousandths)],
     ]
     names = [field.name for field in fields(ErrorFigures)]
-    excess = number(100 * measured.volume_error, 3)
+    excess = f"{number(abs(100 * measured.volume_error), 3)} % {'larger' if measured.volume_error > 0 else 'smaller'}"
     return section(
         "Measured against the goal",
         paragraph(
             f"Normal distance of {len(measured.distances):,} points spread evenly over the model from the goal's "
-            f"surface, positive outside, and the other way round. The model's volume differs by {excess} %."
+            f"surface, positive outside, and the other way round. The model's volume is {excess} than the goal's."
         ),
         table(
             ["distance", *(f"{name} [{unit}]" for name in names), *(f"{name} [‰]" for name in names)],

@@ -13,7 +13,7 @@ from sketchloft.cloud import Floats, Unit
 from sketchloft.pipeline import BodyModel, Reconstruction
 from sketchloft.report.axes_style import heading, legend_below
 from sketchloft.report.camera import BEHIND, FRONT, Camera
-from sketchloft.report.faces import coloured_faces, face_legend
+from sketchloft.report.faces import CREASE, coloured_faces, face_legend
 from sketchloft.report.palette import CURVES
 from sketchloft.report.picture import new_figure
 from sketchloft.report.pose import Pose, pose_of
@@ -45,7 +45,7 @@ def loft_figure(result: Reconstruction, body: BodyModel, *, unit: Unit) -> Figur
     heading(curves, "Section curves", f"{len(body.sections)}, one on every slice plane")
     mesh, colours = coloured_faces(body.solid, result.cloud.centre)
     for ax, camera in ((front, FRONT), (behind, BEHIND)):
-        draw_mesh(ax, mesh, camera, colour=colours, pixels=480)
+        draw_mesh(ax, mesh, camera, colour=colours, crease=CREASE, pixels=480)
     heading(front, "Lofted solid", f"{sum(body.facts.faces.values())} faces, {body.facts.edges} edges")
     heading(behind, "The same solid", "from behind and below")
     finish_views([(curves, FRONT), (front, FRONT), (behind, BEHIND)], unit)

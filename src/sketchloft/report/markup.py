@@ -37,9 +37,12 @@ def bullets(items: Sequence[str], kind: str = "") -> str:
     return f"<ul{_class(kind)}>" + "".join(f"<li>{escaped(item)}</li>" for item in items) + "</ul>"
 
 
-def figures(values: Mapping[str, str]) -> str:
-    """Key figures by name, as cards."""
-    cards = (f"<div><dt>{escaped(k)}</dt><dd>{escaped(v)}</dd></div>" for k, v in values.items())
+def figures(values: Mapping[str, tuple[str, str]]) -> str:
+    """Key figures by name, each with a remark that may be empty, as cards."""
+    cards = (
+        f"<div><dt>{escaped(name)}</dt><dd>{escaped(value)}</dd><dd>{escaped(remark)}</dd></div>"
+        for name, (value, remark) in values.items()
+    )
     return '<dl class="figures">' + "".join(cards) + "</dl>"
 
 
@@ -61,8 +64,9 @@ def table(head: Sequence[str], rows: Sequence[Sequence[str]], *, caption: str, n
     )
     body = "\n".join(f"<tr>{_row(row, kinds)}</tr>" for row in rows)
     return (
-        f'<div class="table" tabindex="0"><table><caption>{escaped(caption)}</caption>\n'
-        f"<thead><tr>{top}</tr></thead>\n<tbody>\n{body}\n</tbody></table></div>"
+        f"<figure><figcaption>{escaped(caption)}</figcaption>\n"
+        f'<div class="table" tabindex="0"><table><thead><tr>{top}</tr></thead>\n'
+        f"<tbody>\n{body}\n</tbody></table></div></figure>"
     )
 
 
@@ -72,7 +76,7 @@ def picture(figure: Figure, alt: str, caption: str) -> str:
     figure.savefig(image, format="png", dpi=DPI, metadata={"Software": None})
     data = base64.b64encode(image.getvalue()).decode("ascii")
     return (
-        f'<figure><img alt="{escaped(alt)}" src="data:image/png;base64,{data}">'
+        f'<figure class="picture"><img alt="{escaped(alt)}" src="data:image/png;base64,{data}">'
         f"<figcaption>{escaped(caption)}</figcaption></figure>"
     )
 

@@ -11,7 +11,7 @@ from sketchloft.cloud import Unit
 from sketchloft.pipeline import Reconstruction
 from sketchloft.report.axes_style import heading, legend_below
 from sketchloft.report.camera import FRONT
-from sketchloft.report.faces import coloured_faces, face_legend, joined
+from sketchloft.report.faces import CREASE, coloured_faces, face_legend, joined
 from sketchloft.report.palette import BODIES, CLOUD
 from sketchloft.report.picture import new_figure
 from sketchloft.report.thinning import thinned
@@ -50,7 +50,7 @@ def overview_figure(result: Reconstruction, *, unit: Unit) -> Figure:
     solids = [coloured_faces(body.solid, result.cloud.centre) for body in bodies]
     plain = [np.tile(to_rgb(BODIES[i]), (len(paint), 1)) for i, (_, paint) in enumerate(solids)]
     paint = np.concatenate(plain if several else [paint for _, paint in solids])
-    draw_mesh(model, joined([mesh for mesh, _ in solids]), FRONT, colour=paint, pixels=560)
+    draw_mesh(model, joined([mesh for mesh, _ in solids]), FRONT, colour=paint, crease=CREASE, pixels=560)
     faces = sum(sum(body.facts.faces.values()) for body in bodies)
     heading(model, "Model", f"{counted(len(bodies), 'solid')}, {counted(faces, 'face')}")
     finish_views([(cloud, FRONT), (model, FRONT)], unit)

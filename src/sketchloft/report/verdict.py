@@ -22,13 +22,15 @@ def verdict(result: Reconstruction, unit: Unit, measurement: Measurement | None)
     """Whether the model is valid, its key figures and its picture."""
     bodies = result.bodies
     found = "Valid solid" if len(bodies) == 1 else f"{len(bodies)} valid solids"
+    cards = _measured(measurement, unit)
+    summary = ""
     if len(bodies) == 1:
-        figured = figures(_key_figures(bodies[0], unit) | _measured(measurement, unit))
+        cards = _key_figures(bodies[0], unit) | cards
     else:
-        rows = [[body.name, *_key_figures(body, unit).values()] for body in bodies]
+        rows = [[body.name, *map(_joined, _key_figures(body, unit).values())] for body in bodies]
         head = ["body", *_key_figures(bodies[0], unit)]
-        figured = table(head, rows, caption="Key figures of every body", numbers=[2, 3, 4])
-        figured = (figures(_measured(measurement, unit)) if measurement else "") + figured
+        summary = table(head, rows, caption="Key figures of every body.", numbers=[2, 3, 4])
+    figured = (figures(cards) if cards else "") + summary
     checks = (
         "Checked before it was given out: one closed shell without free edges, accepted by the CAD kernel, "
         "normals outwards, sections that do not cut themselves, a volume equal to that of the sections, and "
@@ -73,30 +75,32 @@ def trust(result: Reconstruction, unit: Unit) -> str:
     return section("How far to trust it", said, grounds, caution, anchor="trust")
 
 
-def face_words(body: BodyModel) -> str:
-    """Faces of a body by kind, the most frequent first."""
-    kinds = Counter(body.facts.faces).most_common()
-    return ", ".join(f"{count} {FACE_WORDS.get(kind, kind)}" for kind, count in kinds)
-
-
-def _key_figures(body: BodyModel, unit: Unit) -> dict[str, str]:
+def _key_figures(body: BodyModel, unit: Unit) -> dict[str, tuple[str, str]]:
     facts = body.facts
+    kinds = Counter(facts.faces).most_common()
     box = f" {TIMES} ".join(number(float(c)) for c in facts.bounds[1] - facts.bounds[0])
     return {
-        "faces": f"{sum(facts.faces.values())} ({face_words(body)})",
-        f"volume [{unit}³]": number(facts.volume, 5),
-        f"area [{unit}²]": number(facts.area, 5),
-        f"box [{unit}]": box,
+        "faces": (
+            str(sum(facts.faces.values())),
+            ", ".join(f"{count} {FACE_WORDS.get(kind, kind)}" for kind, count in kinds),
+        ),
+        "volume": (f"{number(facts.volume, 5)} {unit}³", ""),
+        "area": (f"{number(facts.area, 5)} {unit}²", ""),
+        "box": (f"{box} {unit}", ""),
     }
 
 
-def _measured(measurement: Measurement | None, unit: Unit) -> dict[str, str]:
+def _joined(figure: tuple[str, str]) -> str:
+    value, remark = figure
+    return f"{value} ({remark})" if remark else value
+
+
+def _measured(measurement: Measurement | None, unit: Unit) -> dict[str, tuple[str, str]]:
     if measurement is None:
         return {}
-    rms, share = measurement.errors.rms, measurement.errors_in_thousandths.rms
-    return {
-        f"rms error against the goal [{unit}]": f"{number(rms, 3)} ({number(share, 3)} ‰ of its diagonal)"
-    }
+    share = number(measurement.errors_in_thousandths.rms, 3)
+    error = f"{number(measurement.errors.rms, 3)} {unit}"
+    return {"error against the goal": (error, f"rms, {share} ‰ of the goal's diagonal")}
 
 
 def _trust_row(body: BodyModel, unit: Unit) -> list[str]:

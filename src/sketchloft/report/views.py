@@ -15,7 +15,7 @@ from sketchloft.report.palette import MUTED
 
 __all__ = ["finish_views", "round_length"]
 
-ARM = 0.14
+ARM = 0.17
 """About how long the arm of an axis is, as a share of what is drawn."""
 SHORTEST = 0.2
 """Arms that are foreshortened to less than this share are left out."""
@@ -59,6 +59,6 @@ def _draw_axes(ax: Axes, camera: Camera, length: float, unit: Unit) -> None:
 
 
 def round_length(length: float) -> float:
-    """1, 2 or 5 times a power of ten, the largest that is not longer."""
+    """1, 2, 3 or 5 times a power of ten, the largest that is not longer."""
     power = 10 ** np.floor(np.log10(length))
-    return float(power * max(step for step in (1, 2, 5) if step * power <= length * (1 + 1e-9)))
+    return float(power * max(step for step in (1, 2, 3, 5) if step * power <= length * (1 + 1e-9)))

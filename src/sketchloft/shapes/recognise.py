@@ -17,7 +17,7 @@ from sketchloft.shapes.ellipse import Ellipse, fit_ellipse
 from sketchloft.shapes.rectangle import Rectangle, fit_rectangle
 from sketchloft.shapes.spline import ClosedSpline, fit_spline
 
-__all__ = ["Shape", "recognise"]
+__all__ = ["Shape", "recognise", "simpler"]
 
 Shape = Circle | Ellipse | Rectangle | ClosedSpline
 
@@ -102,20 +102,27 @@ def _spline(points: Floats) -> ClosedSpline:
     return min(fits, key=lambda fit: _information(points, fit))
 
 
+def simpler(shape: Shape, edge: EdgePoints) -> Shape | None:
+    """Spline through the same edge points with the next smaller number of control points, if there is one."""
+    fewer = [count for count in POLES if count < shape.parameters]
+    if shape.kind != "spline" or not fewer:
+        return None
+    return _grown(fit_spline(edge.points, fewer[-1]), edge.area)
+
+
 def _settled(shape: Shape, edge: EdgePoints, index: int) -> Shape:
     """Shape that encloses the area of its slice; a spline that then crosses itself gets fewer poles."""
-    grown = _grown(shape, edge.area)
-    fewer = [count for count in POLES[::-1] if count < shape.parameters]
-    while not ring_is_simple(_ring(grown)):
-        if shape.kind != "spline" or not fewer:
-            raise StageError(
-                f"the {shape.kind} through {len(edge.points)} edge points crosses itself; use a larger probe "
-                "radius or more points per slice",
-                stage=STAGE,
-                slice_index=index,
-            )
-        grown = _grown(fit_spline(edge.points, fewer.pop(0)), edge.area)
-    return grown
+    settled: Shape | None = _grown(shape, edge.area)
+    while settled is not None and not ring_is_simple(_ring(settled)):
+        settled = simpler(settled, edge)
+    if settled is None:
+        raise StageError(
+            f"the {shape.kind} through {len(edge.points)} edge points crosses itself; use a larger probe "
+            "radius or more points per slice",
+            stage=STAGE,
+            slice_index=index,
+        )
+    return settled
 
 
 def _grown(shape: Shape, area: float) -> Shape:

@@ -12,7 +12,7 @@ from matplotlib.image import imread
 
 from meshes import block, sphere
 from sketchloft.errors import OutputError
-from sketchloft.measure import Measurement, measure
+from sketchloft.measurement import Measurement, measure
 from sketchloft.report.camera import BEHIND, FRONT
 from sketchloft.report.error_map import COLOURS, draw_error_map, error_map_figure
 from sketchloft.report.picture import new_figure, save_figure

@@ -15,7 +15,7 @@ from scipy.spatial.transform import Rotation
 from meshes import block, soup, sphere
 from sketchloft.closed_mesh import closed_mesh, welded
 from sketchloft.errors import ModelError, UsageError
-from sketchloft.measure import measure, vertex_errors
+from sketchloft.measurement import measure, vertex_errors
 from sketchloft.mesh import Mesh
 from sketchloft.signed_distance import signed_distance
 from sketchloft.subdivide import subdivide

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from sketchloft.cloud import PointCloud
     from sketchloft.errors import SketchloftError
     from sketchloft.io import read_cloud, write_cloud
-    from sketchloft.measure import Measurement, measure
+    from sketchloft.measurement import Measurement, measure
     from sketchloft.mesh import Mesh
     from sketchloft.pipeline import Params, Reconstruction, reconstruct
 
@@ -19,7 +19,7 @@ __version__ = "0.1.0"
 
 # Loaded when first asked for, so that `sketchloft --help` need not wait for numpy and the CAD kernel.
 _HOMES = {
-    "Measurement": "sketchloft.measure",
+    "Measurement": "sketchloft.measurement",
     "Mesh": "sketchloft.mesh",
     "NamedSolid": "sketchloft.brep.model",
     "Params": "sketchloft.pipeline",
@@ -27,7 +27,7 @@ _HOMES = {
     "Reconstruction": "sketchloft.pipeline",
     "SketchloftError": "sketchloft.errors",
     "load_mesh": "sketchloft.brep.files",
-    "measure": "sketchloft.measure",
+    "measure": "sketchloft.measurement",
     "read_cloud": "sketchloft.io",
     "reconstruct": "sketchloft.pipeline",
     "write_cloud": "sketchloft.io",

@@ -15,44 +15,50 @@ from sketchloft.errors import OutputError, SketchloftError, UsageError
 
 __all__ = ["main"]
 
+COMMANDS = {
+    "build": "Build a CAD model from a cloud of points.",
+    "sample": "Draw a cloud of a known solid.",
+    "measure": "Measure a model against its goal.",
+    "compare": "Compare slice-and-loft with the 3D alpha shape and the octree boundary.",
+    "info": "Tell what is in a file.",
+}
+EXIT_CODES = (
+    "Exit codes: 0 done, 2 wrong option, 3 unreadable input, 4 cloud that is no solid, 5 a stage that cannot "
+    "go on, 6 invalid solid, 7 unwritable output."
+)
 INTERRUPTED = 130
 
-app = cyclopts.App(
-    name="sketchloft",
-    help="Turn a cloud of points drawn in mid-air into a CAD solid.",
-    help_epilogue=(
-        "Exit codes: 0 done, 2 wrong option, 3 unreadable input, 4 cloud that is no solid, 5 a stage that "
-        "cannot go on, 6 invalid solid, 7 unwritable output."
-    ),
-    help_format="plaintext",
-    version=__version__,
-)
-# Commands are named, not imported: each is loaded when it is called, which keeps --help instant.
-app.command("sketchloft.commands.build:build", name="build", help="Build a CAD model from a cloud of points.")
-app.command("sketchloft.commands.sample:sample", name="sample", help="Draw a cloud of a known solid.")
-app.command("sketchloft.commands.measure:measure", name="measure", help="Measure a model against its goal.")
-app.command(
-    "sketchloft.commands.compare:compare",
-    name="compare",
-    help="Compare slice-and-loft with the 3D alpha shape and the octree boundary.",
-)
-app.command("sketchloft.commands.info:info", name="info", help="Tell what is in a file.")
-app.register_install_completion_command(help="Install completion for this shell.")
 
+def _application() -> cyclopts.App:
+    """Build the application; a new one for each run, because a config file becomes part of it."""
+    app = cyclopts.App(
+        name="sketchloft",
+        help="Turn a cloud of points drawn in mid-air into a CAD solid.",
+        help_epilogue=EXIT_CODES,
+        help_format="plaintext",
+        version=__version__,
+        result_action="return_value",
+    )
+    # Commands are named, not imported: each is loaded when it is called, which keeps --help instant.
+    for name, text in COMMANDS.items():
+        app.command(f"sketchloft.commands.{name}:{name}", name=name, help=text)
+    app.register_install_completion_command(help="Install completion for this shell.")
 
-@app.meta.default
-def _run(
-    *tokens: Annotated[str, Parameter(show=False, allow_leading_hyphen=True)],
-    config: Annotated[
-        Path | None,
-        Parameter(help="TOML file with options, a table per command; options given here win."),
-    ] = None,
-) -> object:
-    if config is not None:
-        if not config.is_file():
-            raise UsageError(f"{config}: is no file; give a TOML file with a table such as [build]")
-        app.config = (cyclopts.config.Toml(config, must_exist=True, use_commands_as_keys=True),)
-    return app(tokens, exit_on_error=False, print_error=False)
+    @app.meta.default
+    def run(
+        *tokens: Annotated[str, Parameter(show=False, allow_leading_hyphen=True)],
+        config: Annotated[
+            Path | None,
+            Parameter(help="TOML file with options, a table per command; options given here win."),
+        ] = None,
+    ) -> object:
+        if config is not None:
+            if not config.is_file():
+                raise UsageError(f"{config}: is no file; give a TOML file with a table such as [build]")
+            app.config = (cyclopts.config.Toml(config.resolve()),)
+        return app(tokens, exit_on_error=False, print_error=False)
+
+    return app
 
 
 def main(arguments: list[str] | None = None) -> None:
@@ -62,7 +68,7 @@ def main(arguments: list[str] | None = None) -> None:
 
 def _exit_code(arguments: list[str]) -> int:
     try:
-        app.meta(arguments, exit_on_error=False, print_error=False)
+        _application().meta(arguments, exit_on_error=False, print_error=False, result_action="return_value")
         sys.stdout.flush()
     except SketchloftError as error:
         return _failed(str(error), error.exit_code)

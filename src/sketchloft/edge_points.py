@@ -30,6 +30,10 @@ GAP = 0.8
 """Empty area along a contour per edge point and point density, for a small probe; 1 for a hull (Efron)."""
 STEP, STEPS = 4.0, 4
 """Factor between the probe radii that are tried, and their number on either side of the rule's."""
+FINE_STEP, FINE_STEPS = 1.3, 8
+"""The same for a section that is filled but has holes."""
+WHOLE = 0.97
+"""Share of the points that a section without holes holds at least; the others are strays."""
 SKIN = 0.65
 """Sections whose alpha shape fills a smaller share than this of their outer contour are skins."""
 ACROSS = 1.3
@@ -139,8 +143,9 @@ def edge_points(slices: Sequence[WorkedSlice], params: EdgePointsParams) -> tupl
     Notes
     -----
     The automatic probe radius is the smallest that is not expected to fall into the section
-    (`small_probe_radius`). Where the cloud covers the surface only, it is the smallest of that radius and
-    its multiples by 4 that closes the skin. Where a filled section is convex it is infinite. Convexity is
+    (`small_probe_radius`), or the smallest larger one that leaves no hole. Where the cloud covers the
+    surface only, it is the smallest of that radius and its multiples by 4 that closes the skin. Where a
+    filled section is convex it is infinite. Convexity is
     judged by area: by Efron's identity a convex section that holds n points, N of them on the hull of
     area A, has an area of about A n / (n - N). Where that is no larger than what the small probe accounts
     for, by twice the standard error over a slice and its four neighbours, nothing speaks against the hull,
@@ -225,8 +230,23 @@ def _smallest(shape: AlphaComplex, index: int) -> tuple[float, Contour]:
         return limit, _contour(shape, limit, index)
     emptiest = min((found for _, found in whole), key=lambda found: found.filled)
     if emptiest.filled > SKIN:
-        return next((radius, found) for radius, found in whole if radius >= small or found is whole[-1][1])
+        return _without_holes(shape, small) or whole[-1]
     return next((radius, found) for radius, found in whole if found.area >= CLOSED * emptiest.area)
+
+
+def _without_holes(shape: AlphaComplex, small: float) -> tuple[float, Contour] | None:
+    """Smallest radius, from the rule's up, that leaves no hole; the rule's own where a hole stays.
+
+    An evenly random section has none to begin with, a scribbled one has many, and fjords as deep.
+    """
+    first = None
+    for k in range(FINE_STEPS):
+        found = outer_contour(shape, small * FINE_STEP**k)
+        if found is not None and _is_section(found, shape):
+            first = first or (small * FINE_STEP**k, found)
+            if found.filled > 1 - 1e-9 and found.share > WHOLE:
+                return small * FINE_STEP**k, found
+    return first
 
 
 def _is_section(contour: Contour, shape: AlphaComplex) -> bool:

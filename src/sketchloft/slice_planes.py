@@ -230,7 +230,7 @@ def _circle_centre(across: Floats) -> Floats:
 def _tolerance(profile: Floats) -> float:
     """Difference that chance alone makes between two bins, judged by the second differences."""
     sigma = 1.4826 * float(np.median(np.abs(np.diff(profile, 2)))) / np.sqrt(6)
-    return max(6 * sigma, LEVEL * float(profile.max()))
+    return max(4 * sigma, LEVEL * float(profile.max()))
 
 
 def _extrema(profile: Floats, tolerance: float) -> Ints:

@@ -11,8 +11,8 @@ from sketchloft.brep.files import load_mesh
 from sketchloft.cloud import Unit
 from sketchloft.commands.console import Json, show, show_json
 from sketchloft.errors import UsageError
-from sketchloft.measure import Measurement
-from sketchloft.measure import measure as measured
+from sketchloft.measurement import Measurement
+from sketchloft.measurement import measure as measured
 
 __all__ = ["measure"]
 

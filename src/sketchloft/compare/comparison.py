@@ -8,7 +8,7 @@ from typing import Any, Literal, get_args
 
 from sketchloft.cloud import CleanCloud
 from sketchloft.compare.surface_facts import SurfaceFacts
-from sketchloft.measure import ErrorFigures
+from sketchloft.measurement import ErrorFigures
 from sketchloft.mesh import Mesh
 
 __all__ = ["METHODS", "Comparison", "Method", "Row"]

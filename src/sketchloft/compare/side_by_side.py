@@ -14,7 +14,7 @@ from sketchloft.compare.comparison import Comparison, Method, Row
 from sketchloft.compare.methods import LoftedModel, MethodModel, alpha_model, lofted_model, octree_model
 from sketchloft.compare.surface_facts import surface_facts
 from sketchloft.errors import ModelError, StageError, UsageError
-from sketchloft.measure import measure
+from sketchloft.measurement import measure
 from sketchloft.mesh import Mesh
 
 __all__ = ["ComparisonParams", "compare", "parse_radii"]

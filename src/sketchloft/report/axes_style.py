@@ -20,6 +20,9 @@ def style_axes(ax: Axes, *, grid: bool = True) -> None:
     ax.spines[["top", "right"]].set_visible(False)
     ax.spines[["left", "bottom"]].set_color(MUTED)
     ax.tick_params(colors=MUTED, labelsize=8, length=3)
+    ax.ticklabel_format(scilimits=(-3, 6))
+    ax.xaxis.get_offset_text().set(size=7, color=MUTED)
+    ax.yaxis.get_offset_text().set(size=7, color=MUTED, x=-0.02, ha="right")
     ax.xaxis.label.set(color=INK, size=9)
     ax.yaxis.label.set(color=INK, size=9)
     if grid:

@@ -79,4 +79,5 @@ def _draw_slab(ax: Axes, body: BodyModel, pose: Pose, unit: Unit) -> None:
     style_axes(ax)
     ax.set(xlabel=f"across, from the central axis [{unit}]", ylabel=pose.labels(unit)[2])
     heading(ax, "Slab through the axis", f"{100 * SLAB:g} % of the width thick")
+    ax.locator_params(nbins=7)
     legend_below(ax, columns=3)

@@ -24,6 +24,8 @@ from sketchloft.report.words import direction_words, number
 
 __all__ = ["directions_figure"]
 
+PIXELS = 480
+"""Resolution of a view of solids along its longer side."""
 SAME = 1 - 1e-9
 """Cosine from which on two directions are one."""
 
@@ -58,7 +60,7 @@ def directions_figure(results: Sequence[Reconstruction], *, unit: Unit) -> Figur
         body = result.bodies[0]
         draw_sections(above, body, pose_of(result, body), FRONT)
         mesh, colours = coloured_faces(body.solid, result.cloud.centre)
-        draw_mesh(below, mesh, FRONT, colour=colours, crease=CREASE, pixels=480)
+        draw_mesh(below, mesh, FRONT, colour=colours, crease=CREASE, pixels=PIXELS)
         vector = body.direction.vector
         heading(above, f"sliced along {direction_words(vector)}", _judgement(vector, judged))
         heading(below, f"volume {number(body.facts.volume)} {unit}³", f"{len(body.sections)} sections lofted")

@@ -84,9 +84,12 @@ def _number_slices(ax: Axes, planes: Floats) -> None:
     """Number the slices along the top, as many as have room."""
     least = float(np.ptp(planes)) / NUMBERS
     numbered = [0]
-    for i in range(1, len(planes)):
+    for i in range(1, len(planes) - 1):
         if planes[i] - planes[numbered[-1]] >= least:
             numbered.append(i)
+    if planes[-1] - planes[numbered[-1]] < least:
+        numbered.pop()
+    numbered.append(len(planes) - 1)
     top = ax.secondary_xaxis("top")
     top.set_xticks(planes[numbered], [str(i) for i in numbered])
     top.tick_params(colors=MUTED, labelsize=7, length=2)

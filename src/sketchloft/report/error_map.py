@@ -12,7 +12,7 @@ from matplotlib.colors import LinearSegmentedColormap, Normalize
 from matplotlib.figure import Figure, SubFigure
 
 from sketchloft.cloud import Unit
-from sketchloft.measure import Measurement, vertex_errors
+from sketchloft.measurement import Measurement, vertex_errors
 from sketchloft.report.camera import BEHIND, FRONT, Camera
 from sketchloft.report.picture import new_figure, save_figure
 from sketchloft.report.view3d import draw_mesh

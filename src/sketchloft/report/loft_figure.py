@@ -22,6 +22,8 @@ from sketchloft.report.views import finish_views
 
 __all__ = ["curve_legend", "draw_sections", "loft_figure"]
 
+PIXELS = 480
+"""Resolution of a view of solids along its longer side."""
 AROUND = np.arange(181) / 180
 
 
@@ -45,7 +47,7 @@ def loft_figure(result: Reconstruction, body: BodyModel, *, unit: Unit) -> Figur
     heading(curves, "Section curves", f"{len(body.sections)}, one on every slice plane")
     mesh, colours = coloured_faces(body.solid, result.cloud.centre)
     for ax, camera in ((front, FRONT), (behind, BEHIND)):
-        draw_mesh(ax, mesh, camera, colour=colours, crease=CREASE, pixels=480)
+        draw_mesh(ax, mesh, camera, colour=colours, crease=CREASE, pixels=PIXELS)
     heading(front, "Lofted solid", f"{sum(body.facts.faces.values())} faces, {body.facts.edges} edges")
     heading(behind, "The same solid", "from behind and below")
     finish_views([(curves, FRONT), (front, FRONT), (behind, BEHIND)], unit)

@@ -21,6 +21,8 @@ from sketchloft.report.words import counted
 
 __all__ = ["overview_figure"]
 
+PIXELS = 560
+"""Resolution of a view of solids along its longer side."""
 MOST = 20_000
 """Points that are drawn; an even sample stands for more."""
 
@@ -50,7 +52,7 @@ def overview_figure(result: Reconstruction, *, unit: Unit) -> Figure:
     solids = [coloured_faces(body.solid, result.cloud.centre) for body in bodies]
     plain = [np.tile(to_rgb(BODIES[i]), (len(paint), 1)) for i, (_, paint) in enumerate(solids)]
     paint = np.concatenate(plain if several else [paint for _, paint in solids])
-    draw_mesh(model, joined([mesh for mesh, _ in solids]), FRONT, colour=paint, crease=CREASE, pixels=560)
+    draw_mesh(model, joined([mesh for mesh, _ in solids]), FRONT, colour=paint, crease=CREASE, pixels=PIXELS)
     faces = sum(sum(body.facts.faces.values()) for body in bodies)
     heading(model, "Model", f"{counted(len(bodies), 'solid')}, {counted(faces, 'face')}")
     finish_views([(cloud, FRONT), (model, FRONT)], unit)

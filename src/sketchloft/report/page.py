@@ -10,21 +10,22 @@ from sketchloft.report.markup import escaped
 __all__ = ["page"]
 
 
-def page(title: str, content: Sequence[str], contents: Mapping[str, str], foot: str) -> str:
+def page(title: str, top: str, contents: Mapping[str, str], parts: Sequence[str], foot: str) -> str:
     """Whole HTML document that refers to nothing outside itself.
 
     Parameters
     ----------
     title : str
-    content : sequence of str
-        Pieces of HTML; the table of contents follows the first.
+    top : str
+        HTML that stands before the table of contents.
     contents : mapping of str to str
         Title of each entry by the anchor that it leads to.
+    parts : sequence of str
+        HTML that follows.
     foot : str
     """
     style = resources.files("sketchloft.report").joinpath("report.css").read_text(encoding="utf-8")
     entries = "".join(f'<li><a href="#{escaped(a)}">{escaped(t)}</a></li>' for a, t in contents.items())
-    first, *rest = content
     return "\n".join(
         [
             "<!DOCTYPE html>",
@@ -35,9 +36,9 @@ def page(title: str, content: Sequence[str], contents: Mapping[str, str], foot: 
             f"<style>\n{style}</style></head>",
             "<body><main>",
             f"<header><p>sketchloft report</p><h1>{escaped(title)}</h1></header>",
-            first,
+            top,
             f'<nav aria-label="Contents"><ol>{entries}</ol></nav>',
-            *rest,
+            *parts,
             f"<footer>{escaped(foot)}</footer>",
             "</main></body></html>",
             "",

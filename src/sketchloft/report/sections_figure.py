@@ -17,15 +17,18 @@ from sketchloft.report.pose import Pose, pose_of
 from sketchloft.report.thinning import thinned
 from sketchloft.report.words import probe_words, shape_size
 
-__all__ = ["sections_figure"]
+__all__ = ["MOST_SLICES", "sections_figure"]
 
 COLUMNS = 4
+MOST_SLICES = 12
 MOST = 1_500
 """Worked points of a slice that are drawn; an even sample stands for more."""
 AROUND = np.arange(361) / 360
 
 
-def sections_figure(result: Reconstruction, body: BodyModel, *, unit: Unit, most: int = 12) -> Figure:
+def sections_figure(
+    result: Reconstruction, body: BodyModel, *, unit: Unit, most: int = MOST_SLICES
+) -> Figure:
     """Draw evenly chosen slices, each at its own scale.
 
     Parameters
@@ -44,8 +47,7 @@ def sections_figure(result: Reconstruction, body: BodyModel, *, unit: Unit, most
     pose = pose_of(result, body)
     chosen = np.unique(np.linspace(0, len(body.sections) - 1, most).round().astype(int))
     rows = -(-len(chosen) // COLUMNS)
-    figure = new_figure(11.5, 3.1 * rows + 0.4)
-    panels = figure.subplots(rows, COLUMNS, squeeze=False).ravel()
+    figure, panels = _sheet(rows)
     for ax, index in zip(panels, chosen.tolist(), strict=False):
         _draw_slice(ax, body, index, pose, unit)
     for ax in panels[len(chosen) :]:
@@ -53,8 +55,27 @@ def sections_figure(result: Reconstruction, body: BodyModel, *, unit: Unit, most
     figure.supxlabel(pose.labels(unit)[0], fontsize=9, color=INK)
     figure.supylabel(pose.labels(unit)[1], fontsize=9, color=INK)
     with_probe = any(np.isfinite(body.edges[index].probe_radius) for index in chosen)
-    figure.legend(handles=_legend(with_probe), loc="outside upper center", ncols=4, frameon=False, fontsize=9)
+    figure.legend(handles=_legend(with_probe), loc="upper center", ncols=4, frameon=False, fontsize=9)
     return figure
+
+
+def _sheet(rows: int) -> tuple[Figure, list[Axes]]:
+    """Figure with square panels; placing them by hand is faster than by their texts."""
+    width, height = 11.5, 3.05 * rows + 0.75
+    left, right, bottom, top, panel = 0.7, 0.15, 0.6, 0.85, 2.35
+    across = (width - left - right - COLUMNS * panel) / (COLUMNS - 1)
+    down = (height - bottom - top - rows * panel) / max(rows - 1, 1)
+    figure = new_figure(width, height)
+    figure.set_layout_engine("none")
+    place = {
+        "left": left / width,
+        "right": 1 - right / width,
+        "bottom": bottom / height,
+        "top": 1 - top / height,
+        "wspace": across / panel,
+        "hspace": down / panel,
+    }
+    return figure, figure.subplots(rows, COLUMNS, squeeze=False, gridspec_kw=place).ravel().tolist()
 
 
 def _draw_slice(ax: Axes, body: BodyModel, index: int, pose: Pose, unit: Unit) -> None:

@@ -55,6 +55,7 @@ def side_figure(result: Reconstruction, body: BodyModel, *, unit: Unit) -> Figur
         ax.set_aspect("equal", "datalim")
         style_axes(ax, grid=False)
         ax.set_xlabel(pose.labels(unit)[0])
+        ax.locator_params(nbins=7)
         legend_below(ax, columns=3)
     planes.set_ylabel(pose.labels(unit)[2])
     draw_points(space, pose.in_space(thinned(edges, MOST)), FRONT, colour=EDGE, size=2.0)

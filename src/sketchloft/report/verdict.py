@@ -7,11 +7,11 @@ from collections import Counter
 import numpy as np
 
 from sketchloft.cloud import Unit
-from sketchloft.measure import Measurement
+from sketchloft.measurement import Measurement
 from sketchloft.pipeline import BodyModel, Reconstruction
 from sketchloft.remarks import remarks
 from sketchloft.report.evidence import diagonal, slice_evidence, total_rms
-from sketchloft.report.markup import bullets, figures, paragraph, picture, section, table
+from sketchloft.report.markup import bullets, figures, paragraph, picture, table
 from sketchloft.report.overview_figure import overview_figure
 from sketchloft.report.words import FACE_WORDS, TIMES, number
 
@@ -45,7 +45,7 @@ def verdict(result: Reconstruction, unit: Unit, measurement: Measurement | None)
     return "\n".join([paragraph(found, "verdict"), figured, paragraph(checks), shown])
 
 
-def trust(result: Reconstruction, unit: Unit) -> str:
+def trust(result: Reconstruction, unit: Unit) -> list[str]:
     """What was left out, and how well the shapes fit the points."""
     found = remarks(result)
     said = bullets(found, "remarks") if found else paragraph("Nothing was left out on the way.")
@@ -72,7 +72,7 @@ def trust(result: Reconstruction, unit: Unit) -> str:
         "what was meant, only a measurement against a goal can say. Between slices the model is lofted and "
         "has no evidence of its own: what is smaller than the distance of the slices is not in it."
     )
-    return section("How far to trust it", said, grounds, caution, anchor="trust")
+    return [said, grounds, caution]
 
 
 def _key_figures(body: BodyModel, unit: Unit) -> dict[str, tuple[str, str]]:

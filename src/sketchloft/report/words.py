@@ -13,6 +13,8 @@ from sketchloft.shapes.rectangle import Rectangle
 
 __all__ = [
     "FACE_WORDS",
+    "MINUS",
+    "TIMES",
     "axis_name",
     "counted",
     "direction_words",

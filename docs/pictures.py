@@ -1,0 +1,63 @@
+"""Every picture of the README and the docs, made anew by the examples (`make docs-pictures`).
+
+    python docs/pictures.py [FOLDER]
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from pathlib import Path
+
+from PIL import Image
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "examples"))
+
+import comparison  # noqa: E402  found only with the line above
+import demo  # noqa: E402
+import directions  # noqa: E402
+import distortion  # noqa: E402
+import lamp  # noqa: E402
+import quantify  # noqa: E402
+from hero import draw_hero  # noqa: E402
+from trial import N, cloud_of, trial  # noqa: E402
+
+__all__ = ["main"]
+
+WIDEST = 1400
+"""Pixels across."""
+COLOURS = 255
+"""So many are enough for the eye, and take a third of the room of all colours."""
+
+
+def main(folder: Path, n: int = N) -> list[Path]:
+    """Make every picture, and make it small."""
+    folder.mkdir(parents=True, exist_ok=True)
+    pictures = [draw_hero(trial(cloud_of("lamp", n)).result, folder / "hero.png")]
+    pictures += demo.draw_stages(trial(cloud_of(demo.NAME, n)).result, folder)
+    for example in (quantify, distortion, comparison, lamp, directions):
+        pictures += example.main(folder, n)
+    for picture in pictures:
+        _shrink(picture)
+    return pictures
+
+
+def _shrink(path: Path) -> None:
+    """Write a picture again with fewer pixels and colours."""
+    with Image.open(path) as opened:
+        picture = opened.convert("RGB")
+    if picture.width > WIDEST:
+        size = WIDEST, round(picture.height * WIDEST / picture.width)
+        picture = picture.resize(size, Image.Resampling.LANCZOS)
+    picture.quantize(COLOURS, Image.Quantize.MEDIANCUT, dither=Image.Dither.FLOYDSTEINBERG).save(
+        path, optimize=True
+    )
+
+
+if __name__ == "__main__":
+    begun = time.perf_counter()
+    made = main(Path(sys.argv[1]) if len(sys.argv) > 1 else HERE / "pictures")
+    for picture in made:
+        print(f"{picture}  {picture.stat().st_size / 1024:.0f} kB")
+    print(f"{len(made)} pictures in {time.perf_counter() - begun:.0f} s")

@@ -1,6 +1,6 @@
 """Every picture of the README and the docs, made anew by the examples (`make docs-pictures`).
 
-    python docs/pictures.py [FOLDER]
+Run as `python docs/pictures.py [FOLDER]`; the folder is `docs/pictures` if not given.
 """
 
 from __future__ import annotations
@@ -9,10 +9,13 @@ import sys
 import time
 from pathlib import Path
 
+import numpy as np
 from PIL import Image
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "examples"))
+
+from hero import draw_hero  # noqa: E402
 
 import comparison  # noqa: E402  found only with the line above
 import demo  # noqa: E402
@@ -20,15 +23,14 @@ import directions  # noqa: E402
 import distortion  # noqa: E402
 import lamp  # noqa: E402
 import quantify  # noqa: E402
-from hero import draw_hero  # noqa: E402
 from trial import N, cloud_of, trial  # noqa: E402
 
-__all__ = ["main"]
+__all__ = ["main", "shrink"]
 
 WIDEST = 1400
 """Pixels across."""
 COLOURS = 255
-"""So many are enough for the eye, and take a third of the room of all colours."""
+"""With dither, so many are enough for the eye; they take less than half the room of all colours."""
 
 
 def main(folder: Path, n: int = N) -> list[Path]:
@@ -39,20 +41,22 @@ def main(folder: Path, n: int = N) -> list[Path]:
     for example in (quantify, distortion, comparison, lamp, directions):
         pictures += example.main(folder, n)
     for picture in pictures:
-        _shrink(picture)
+        shrink(picture)
     return pictures
 
 
-def _shrink(path: Path) -> None:
+def shrink(path: Path) -> None:
     """Write a picture again with fewer pixels and colours."""
     with Image.open(path) as opened:
         picture = opened.convert("RGB")
     if picture.width > WIDEST:
         size = WIDEST, round(picture.height * WIDEST / picture.width)
         picture = picture.resize(size, Image.Resampling.LANCZOS)
-    picture.quantize(COLOURS, Image.Quantize.MEDIANCUT, dither=Image.Dither.FLOYDSTEINBERG).save(
-        path, optimize=True
-    )
+    palette = picture.quantize(COLOURS, Image.Quantize.MAXCOVERAGE)
+    colours = np.array(palette.getpalette(), dtype=int).reshape(-1, 3)
+    colours[colours.sum(axis=1).argmax()] = 255  # the background is to be white, not almost white
+    palette.putpalette(colours.ravel().tolist())
+    picture.quantize(palette=palette, dither=Image.Dither.FLOYDSTEINBERG).save(path, optimize=True)
 
 
 if __name__ == "__main__":

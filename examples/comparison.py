@@ -47,9 +47,9 @@ def _print_table(found: Comparison, title: str) -> None:
         radius = "" if row.probe_radius is None else f"{row.probe_radius:g}"
         figures = f"  {row.remark}"
         if row.errors and row.missed and row.surface and row.volume_error is not None:
-            lengths = f"{row.errors.rms:7.4f} {row.rms_thousandths:7.2f} {row.errors.max:6.3f} {row.missed.rms:7.4f}"
+            lengths = f"{row.errors.rms:7.4f} {row.rms_thousandths:7.2f} {row.errors.max:6.3f}"
             counts = f"{row.faces:7} {row.surface.shells:6} {row.seconds:7.2f}"
-            figures = f"{lengths} {100 * row.volume_error:+6.1f}% {counts}"
+            figures = f"{lengths} {row.missed.rms:7.4f} {100 * row.volume_error:+6.1f}% {counts}"
         print(f"  {row.method:14} {radius:>6} {figures}")
 
 

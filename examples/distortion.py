@@ -47,8 +47,8 @@ def main(folder: Path, n: int) -> list[Path]:
     )
     shapes = [section.shape for section in circles.result.bodies[0].sections]
     centres = np.array([shape.centre for shape in shapes if isinstance(shape, Circle)])
-    stray = np.linalg.norm(centres - centres.mean(axis=0), axis=1)
-    print(f"centres of {len(centres)} circles: rms {np.sqrt(np.square(stray).mean()):.4f} {UNIT} from their axis")
+    stray = np.sqrt(np.square(centres - centres.mean(axis=0)).sum(axis=1).mean())
+    print(f"centres of {len(centres)} circles: rms {stray:.4f} {UNIT} from their axis")
     draw_error_map(
         circles.measured,
         folder / "distortion-error.png",

@@ -23,15 +23,25 @@ __all__ = ["main"]
 def main(folder: Path, n: int) -> list[Path]:
     """Build, measure and draw both models."""
     cloud = cloud_of("three-spheres", n)
-    trials = {kind: trial(cloud, shapes=shapes) for kind, shapes in (("splines", "off"), ("circles", "circle"))}
+    trials = {
+        kind: trial(cloud, shapes=shapes) for kind, shapes in (("splines", "off"), ("circles", "circle"))
+    }
     print_figures({kind: one.measured for kind, one in trials.items()})
     written = [folder / f"quantify-{kind}.png" for kind in trials]
     for path, (kind, one) in zip(written, trials.items(), strict=True):
-        draw_error_map(one.measured, path, unit=UNIT, title=f"Three spheres, {n:,} points, sections as {kind}")
+        draw_error_map(
+            one.measured, path, unit=UNIT, title=f"Three spheres, {n:,} points, sections as {kind}"
+        )
     panels = [
         Panel("Cloud", f"{n:,} points", cloud),
-        Panel("Without curve recognition", f"sections as splines, {trials['splines'].rms}", trials["splines"].mesh),
-        Panel("With curve recognition", f"sections as circles, {trials['circles'].rms}", trials["circles"].mesh),
+        Panel(
+            "Without curve recognition",
+            f"sections as splines, {trials['splines'].rms}",
+            trials["splines"].mesh,
+        ),
+        Panel(
+            "With curve recognition", f"sections as circles, {trials['circles'].rms}", trials["circles"].mesh
+        ),
     ]
     return [*written, draw_gallery(panels, folder / "quantify-models.png")]
 

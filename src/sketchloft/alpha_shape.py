@@ -74,7 +74,8 @@ def alpha_complex(points: Floats) -> AlphaComplex:
     """
     from scipy.spatial import Delaunay  # noqa: PLC0415  half a second that --help need not pay
 
-    triangulation = Delaunay(points)
+    # Points on one sphere make one huge facet, which takes Qhull minutes; joggled by rounding they do not.
+    triangulation = Delaunay(points, qhull_options="QJ Pp" if points.shape[1] == 3 else None)
     simplices = triangulation.simplices.astype(np.intp)
     neighbours = triangulation.neighbors.astype(np.intp)
     corners = points[simplices]

@@ -42,6 +42,8 @@ SHALLOW = 0.5
 """Points less than this share as deep within their contours as evenly spread ones form a skin."""
 DEPTH_SAMPLE = 500
 """Points and triangles of a slice that are asked how deep they lie."""
+OPEN = 0.5
+"""A contour of less than this share of its hull's area runs around inside an open skin; its hull is taken."""
 CLOSED = 0.9
 """A skin is closed where its contour encloses this share of what it does where the skin is emptiest."""
 
@@ -208,11 +210,15 @@ def _automatic(shapes: Sequence[AlphaComplex]) -> tuple[Floats, list[Contour]]:
     on_close = np.array([len(contour.points) for contour in close])
     on_hull = np.array([len(contour.points) for contour in hulls])
     area = np.array([contour.area for contour in close])
-    excess = np.array([contour.area for contour in hulls]) * count / (count - on_hull).clip(1)
+    outer_area = np.array([contour.area for contour in hulls])
+    excess = outer_area * count / (count - on_hull).clip(1)
     excess -= area * count / (count - on_close).clip(1)
     variance = area**2 * on_close / count**2
     near = np.abs(np.subtract.outer(np.arange(len(shapes)), np.arange(len(shapes)))) <= WINDOW
-    convex = (near @ excess < 2 * np.sqrt(near @ variance)) & (not _is_skin(shapes, close))
+    if _is_skin(shapes, close):
+        convex = area < OPEN * outer_area
+    else:
+        convex = near @ excess < 2 * np.sqrt(near @ variance)
     contours = [
         hull if all_round else inner for hull, inner, all_round in zip(hulls, close, convex, strict=True)
     ]
@@ -222,12 +228,10 @@ def _automatic(shapes: Sequence[AlphaComplex]) -> tuple[Floats, list[Contour]]:
 def _smallest(shape: AlphaComplex, index: int) -> tuple[float, Contour]:
     """Small probe radius, larger where the section is a skin with gaps that the probe would fall through."""
     small = small_probe_radius(shape)
-    limit = float(shape.radii[np.isfinite(shape.radii)].max())
-    radii = [radius for k in range(-STEPS, STEPS) if (radius := small * STEP**k) < limit]
-    tried = [(radius, outer_contour(shape, radius)) for radius in radii]
+    tried = [(small * STEP**k, outer_contour(shape, small * STEP**k)) for k in range(-STEPS, STEPS)]
     whole = [(radius, found) for radius, found in tried if found is not None and _is_section(found, shape)]
     if not whole:
-        return limit, _contour(shape, limit, index)
+        return np.inf, _contour(shape, np.inf, index)
     emptiest = min((found for _, found in whole), key=lambda found: found.filled)
     if emptiest.filled > SKIN:
         return _without_holes(shape, small) or whole[-1]

@@ -30,7 +30,7 @@ BINS_PER_SLICE = 2
 OUTER = 0.95
 """Quantile of the distances that stands for the section's reach: the inner parts of a section hardly
 lower it, single stray points do not raise it."""
-LEVEL = 0.04
+LEVEL = 0.03
 """Differences of the profile below this share of its greatest value are no extrema."""
 JUMP = 3.0
 LEDGE = 0.02
@@ -148,8 +148,12 @@ def slice_planes(points: Floats, params: SlicePlanesParams) -> SlicePlanes:
     found = _axis_distance(points, params.central_axis, BINS_PER_SLICE * len(points) // per_slice)
     bottom, top = found.points[:, 2].min(), found.points[:, 2].max()
     tolerance = _tolerance(found.profile)
-    inner = found.heights[_extrema(found.profile, tolerance)]
-    steps = np.array([_placed(step, points, found) for step in _steps(found.profile, tolerance)])
+    jumps = _steps(found.profile, tolerance)
+    extrema = [
+        i for i in _extrema(found.profile, tolerance) if not _on_ledge(i, jumps, found.profile, tolerance)
+    ]
+    inner = found.heights[extrema]
+    steps = np.array([_placed(step, points, found) for step in jumps])
     ledge = LEDGE * (top - bottom) / max(2, len(points) // per_slice)
     inner = inner[(np.abs(inner[:, None] - steps) > MERGE * ledge).all(axis=1)] if len(steps) else inner
     keys = np.sort(np.r_[bottom, inner, steps - ledge, steps + ledge, top])
@@ -269,6 +273,16 @@ def _steps(profile: Floats, tolerance: float) -> list[tuple[int, int]]:
         if all(high <= a or low >= b for a, b in steps):
             steps.append((low, high))
     return steps
+
+
+def _on_ledge(extremum: int, steps: list[tuple[int, int]], profile: Floats, tolerance: float) -> bool:
+    """Whether the profile is level from an extremum to a step, whose planes then stand for it."""
+    for low, high in steps:
+        ledge = high if extremum >= high else low
+        between = profile[min(extremum, ledge) : max(extremum, ledge) + 1]
+        if np.ptp(between) <= tolerance:
+            return True
+    return False
 
 
 def _placed(step: tuple[int, int], points: Floats, found: AxisDistance) -> float:

@@ -8,9 +8,10 @@ import numpy as np
 from OCP.Bnd import Bnd_Box
 from OCP.BRep import BRep_Tool
 from OCP.BRepBndLib import BRepBndLib
-from OCP.BRepBuilderAPI import BRepBuilderAPI_Copy
+from OCP.BRepBuilderAPI import BRepBuilderAPI_Transform
 from OCP.BRepMesh import BRepMesh_IncrementalMesh
 from OCP.collections import IndexedMap_TopoDS_Shape_TopTools_ShapeMapHasher
+from OCP.gp import gp_Trsf
 from OCP.TopAbs import TopAbs_Orientation
 from OCP.TopLoc import TopLoc_Location
 from OCP.TopoDS import TopoDS_Face
@@ -60,11 +61,14 @@ def tessellate_faces(
     (t,) int array
         Index of the face that each triangle lies on, in the solid's order of faces.
     """
-    # The kernel hangs triangles on the shape, so they are made on a copy, which shares the geometry.
-    shape = BRepBuilderAPI_Copy(solid.shape, False, False).Shape()
+    # The kernel hangs triangles on the shape and has an absolute least chord, so a copy of size 1 is used.
     box = Bnd_Box()
-    BRepBndLib.Add_s(shape, box)
-    BRepMesh_IncrementalMesh(shape, chord * math.sqrt(box.SquareExtent()), False, angle, True)
+    BRepBndLib.Add_s(solid.shape, box)
+    size = math.sqrt(box.SquareExtent())
+    unit = gp_Trsf()
+    unit.SetScaleFactor(1 / size)
+    shape = BRepBuilderAPI_Transform(solid.shape, unit, True).Shape()
+    BRepMesh_IncrementalMesh(shape, chord, False, angle, True)
     faces = faces_of(shape)
     pieces = [_triangles(face, i) for i, face in enumerate(faces)]
     sizes = np.array([len(nodes) for nodes, _ in pieces])
@@ -77,7 +81,7 @@ def tessellate_faces(
     a, b, c = triangles.T
     whole = (a != b) & (b != c) & (c != a)  # not those that shrink to an edge at the tip of a cone
     used, places = np.unique(triangles[whole], return_inverse=True)
-    mesh = Mesh(np.concatenate([nodes for nodes, _ in pieces])[used], places.reshape(-1, 3))
+    mesh = Mesh(size * np.concatenate([nodes for nodes, _ in pieces])[used], places.reshape(-1, 3))
     if not _is_closed(mesh.triangles):
         raise ModelError("the triangles of the solid leave gaps; use a finer chord")
     return mesh, face[whole]

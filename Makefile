@@ -20,7 +20,7 @@ demo: $(READY) ## cloud, model, pictures and report of three spheres, in demo/
 	$(BIN)/python examples/demo.py
 
 test: $(READY) ## the whole test suite
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest -n auto
 
 lint: $(READY) ## format, lint and types, as in CI
 	$(BIN)/ruff format --check .

@@ -29,8 +29,11 @@ __all__ = ["main", "shrink"]
 
 WIDEST = 1400
 """Pixels across."""
+LARGE = 200_000
+"""Bytes from which on a picture has to make do with fewer colours."""
 COLOURS = 255
 """With dither, so many are enough for the eye; they take less than half the room of all colours."""
+ALMOST_WHITE = 247
 
 
 def main(folder: Path, n: int = N) -> list[Path]:
@@ -46,15 +49,18 @@ def main(folder: Path, n: int = N) -> list[Path]:
 
 
 def shrink(path: Path) -> None:
-    """Write a picture again with fewer pixels and colours."""
+    """Write a picture again with fewer pixels and, where it is large, fewer colours."""
     with Image.open(path) as opened:
         picture = opened.convert("RGB")
     if picture.width > WIDEST:
         size = WIDEST, round(picture.height * WIDEST / picture.width)
         picture = picture.resize(size, Image.Resampling.LANCZOS)
+    picture.save(path, optimize=True)
+    if path.stat().st_size < LARGE:
+        return
     palette = picture.quantize(COLOURS, Image.Quantize.MAXCOVERAGE)
     colours = np.array(palette.getpalette(), dtype=int).reshape(-1, 3)
-    colours[colours.sum(axis=1).argmax()] = 255  # the background is to be white, not almost white
+    colours[(colours > ALMOST_WHITE).all(axis=1)] = 255  # or the background may become one of these
     palette.putpalette(colours.ravel().tolist())
     picture.quantize(palette=palette, dither=Image.Dither.FLOYDSTEINBERG).save(path, optimize=True)
 

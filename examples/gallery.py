@@ -22,8 +22,6 @@ __all__ = ["Panel", "draw_gallery"]
 HEIGHT, MARGINS = 4.6, 1.1
 """Inches for a panel, and for its heading and the axes below it."""
 NARROWEST, WIDEST = 3.4, 5.0
-CREASE = 50.0
-"""Degrees from which an edge is sharp: more than where the straight pieces of a loft meet."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +42,7 @@ def draw_gallery(panels: Sequence[Panel], path: Path) -> Path:
     views = figure.subplots(1, len(panels))
     for ax, panel in zip(views, panels, strict=True):
         if isinstance(panel.shown, Mesh):
-            draw_mesh(ax, panel.shown, FRONT, crease=CREASE)
+            draw_mesh(ax, panel.shown, FRONT)
         else:
             draw_points(ax, panel.shown.points, FRONT, colour=CLOUD, size=1.6, opacity=0.7)
         heading(ax, panel.title, panel.below)

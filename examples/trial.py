@@ -47,7 +47,7 @@ class Trial:
     def rms(self) -> str:
         """Error in one line, for pictures."""
         length, share = self.measured.errors.rms, self.measured.errors_in_thousandths.rms
-        return f"rms {length:.3g} {UNIT} ({share:.2g} ‰)"
+        return f"rms {length:#.3g} {UNIT} ({share:#.2g} ‰)"
 
 
 def cloud_of(name: str, n: int = N, fill: FillParams | None = None) -> PointCloud:

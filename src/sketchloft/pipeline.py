@@ -152,8 +152,8 @@ def reconstruct(
     >>> from sketchloft import Params, reconstruct
     >>> from sketchloft.sample import GOALS, sample_goal
     >>> result = reconstruct(sample_goal(GOALS["cylinder"], 4000, seed=1))
-    >>> [section.shape.kind for section in result.bodies[0].sections] == ["circle"] * 12
-    True
+    >>> {section.shape.kind for section in result.bodies[0].sections}
+    {'circle'}
     """
     params = params or Params()
     progress("input")

@@ -30,7 +30,7 @@ BINS_PER_SLICE = 2
 OUTER = 0.95
 """Quantile of the distances that stands for the section's reach: the inner parts of a section hardly
 lower it, single stray points do not raise it."""
-LEVEL = 0.03
+LEVEL = 0.02
 """Differences of the profile below this share of its greatest value are no extrema."""
 JUMP = 3.0
 LEDGE = 0.02
@@ -232,9 +232,12 @@ def _circle_centre(across: Floats) -> Floats:
 
 
 def _tolerance(profile: Floats) -> float:
-    """Difference that chance alone makes between two bins, judged by the second differences."""
-    sigma = 1.4826 * float(np.median(np.abs(np.diff(profile, 2)))) / np.sqrt(6)
-    return max(4 * sigma, LEVEL * float(profile.max()))
+    """Difference that chance alone makes between two bins, judged by the third differences.
+
+    A smooth profile has hardly any; for white noise their standard deviation is the root of 20 as large.
+    """
+    sigma = 1.4826 * float(np.median(np.abs(np.diff(profile, 3)))) / np.sqrt(20)
+    return max(5 * sigma, LEVEL * float(profile.max()))
 
 
 def _extrema(profile: Floats, tolerance: float) -> Ints:

@@ -67,7 +67,7 @@ def test_a_radius_for_all_and_one_for_each():
 
 
 def test_a_probe_through_which_everything_falls():
-    with pytest.raises(StageError, match="edge points, slice 0: a probe of radius 0.001 leaves 0%"):
+    with pytest.raises(StageError, match=r"edge points, slice 0: a probe of radius 0\.001 leaves 0%"):
         edge_points(slices(disc), EdgePointsParams(1e-3))
 
 

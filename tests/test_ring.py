@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from sketchloft.alpha_shape import alpha_complex
 from sketchloft.outer_contour import outer_contour
-from sketchloft.ring import ring_area, ring_centre, ring_depth, ring_is_simple, ring_length
+from sketchloft.ring import ring_area, ring_centre, ring_depth, ring_hull, ring_is_simple, ring_length
 
 TRIANGLE = np.array([[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]])
 
@@ -34,6 +34,15 @@ def test_depth_and_centre_are_those_of_shapely(seed):
     inside = shapely.contains_xy(polygon, points)
     assert ring_depth(points, ring) == pytest.approx(np.where(inside, far, -far), abs=1e-12)
     assert ring_centre(ring) == pytest.approx(np.array(polygon.centroid.coords[0]))
+
+
+@given(st.integers(0, 1000))
+def test_the_hull_of_a_ring_holds_it_and_keeps_its_turn(seed):
+    ring = wavy(seed)
+    hull = ring_hull(ring)
+    assert ring_area(hull) == pytest.approx(shapely.Polygon(ring).convex_hull.area)
+    assert {tuple(p) for p in hull} <= {tuple(p) for p in ring}
+    assert ring_depth(ring, hull).min() > -1e-12
 
 
 def test_a_ring_that_crosses_itself_is_not_simple():

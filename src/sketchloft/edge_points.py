@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
@@ -14,7 +14,7 @@ from sketchloft.cloud import Floats
 from sketchloft.errors import StageError, UsageError
 from sketchloft.outer_contour import Contour, outer_contour
 from sketchloft.probe_radius import small_probe_radius
-from sketchloft.ring import ring_centre, ring_depth, ring_length
+from sketchloft.ring import ring_centre, ring_depth, ring_hull, ring_length
 from sketchloft.work_points import WorkedSlice
 
 __all__ = ["EdgePoints", "EdgePointsParams", "edge_points", "parse_probe_radius"]
@@ -205,7 +205,8 @@ def _given(radius: float | tuple[float, ...], count: int) -> Floats:
 def _automatic(shapes: Sequence[AlphaComplex]) -> tuple[Floats, list[Contour]]:
     found = [_smallest(shape, index) for index, shape in enumerate(shapes)]
     small, close = np.array([radius for radius, _ in found]), [contour for _, contour in found]
-    hulls = [_contour(shape, np.inf, index) for index, shape in enumerate(shapes)]
+    # Hulls of the contours, not of the slices: strays beside the section stay out.
+    hulls = [replace(contour, points=ring_hull(contour.points)) for contour in close]
     count = np.array([len(shape.points) for shape in shapes])
     on_close = np.array([len(contour.points) for contour in close])
     on_hull = np.array([len(contour.points) for contour in hulls])

@@ -6,7 +6,7 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 
-__all__ = ["ring_area", "ring_centre", "ring_depth", "ring_is_simple", "ring_length"]
+__all__ = ["ring_area", "ring_centre", "ring_depth", "ring_hull", "ring_is_simple", "ring_length"]
 
 BLOCK = 4_000_000
 """Point-segment pairs that are worked on at once."""
@@ -36,6 +36,14 @@ def ring_is_simple(ring: Floats) -> bool:
     from shapely import LinearRing  # noqa: PLC0415  a fifth of a second that not every command needs
 
     return bool(LinearRing(ring).is_simple)
+
+
+def ring_hull(ring: Floats) -> Floats:
+    """Convex hull of a ring (m, 2), as a ring of some of its points."""
+    from shapely import MultiPoint, get_coordinates  # noqa: PLC0415  as above
+
+    hull: Floats = get_coordinates(MultiPoint(ring).convex_hull)
+    return hull[:0:-1]  # shapely turns clockwise
 
 
 def ring_depth(points: Floats, ring: Floats) -> Floats:

@@ -9,7 +9,7 @@ from sketchloft.probe_radius import small_probe_radius
 
 
 @pytest.mark.parametrize("dimension", [2, 3])
-def test_a_probe_of_infinite_radius_finds_the_convex_hull(dimension):
+def test_a_probe_of_infinite_radius_finds_the_convex_hull(dimension: int) -> None:
     points = np.random.default_rng(0).random((300, dimension))
     shape = alpha_complex(points)
     facets = boundary_facets(shape, shape.inside(np.inf))
@@ -18,7 +18,7 @@ def test_a_probe_of_infinite_radius_finds_the_convex_hull(dimension):
     assert shape.volumes.sum() == pytest.approx(hull.volume)
 
 
-def test_facets_look_outwards_in_the_plane_and_in_space():
+def test_facets_look_outwards_in_the_plane_and_in_space() -> None:
     rng = np.random.default_rng(1)
     flat = alpha_complex(rng.random((200, 2)))
     a, b = np.moveaxis(flat.points[boundary_facets(flat, flat.inside(0.2))], 1, 0)
@@ -30,7 +30,7 @@ def test_facets_look_outwards_in_the_plane_and_in_space():
     assert volume == pytest.approx(solid.volumes[solid.inside(0.3)].sum())
 
 
-def test_the_circumradius_of_known_simplices():
+def test_the_circumradius_of_known_simplices() -> None:
     right_angled = np.array([[[0.0, 0.0], [3.0, 0.0], [0.0, 4.0]]])
     assert circumradii(right_angled) == pytest.approx([2.5])
     corner = np.array([[[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]])
@@ -39,7 +39,7 @@ def test_the_circumradius_of_known_simplices():
     assert np.isinf(circumradii(on_a_line)).all()
 
 
-def test_components_are_numbered_by_falling_volume():
+def test_components_are_numbered_by_falling_volume() -> None:
     rng = np.random.default_rng(2)
     points = np.r_[rng.random((100, 2)) + [5, 0], 3 * rng.random((400, 2)) - [4, 0]]
     shape = alpha_complex(points)
@@ -52,7 +52,7 @@ def test_components_are_numbered_by_falling_volume():
 
 @settings(max_examples=20, deadline=None)
 @given(st.integers(0, 10_000), st.floats(1e-3, 1e3), st.floats(0, 6))
-def test_the_alpha_shape_turns_and_scales_with_its_points(seed, scale, angle):
+def test_the_alpha_shape_turns_and_scales_with_its_points(seed: int, scale: float, angle: float) -> None:
     points = np.random.default_rng(seed).random((60, 2))
     turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
     one, other = alpha_complex(points), alpha_complex(scale * points @ turn.T)
@@ -60,13 +60,13 @@ def test_the_alpha_shape_turns_and_scales_with_its_points(seed, scale, angle):
     assert np.sort(one.radii[finite]) * scale == pytest.approx(np.sort(other.radii)[: finite.sum()], rel=1e-6)
 
 
-def test_points_on_a_line_have_no_triangulation():
+def test_points_on_a_line_have_no_triangulation() -> None:
     with pytest.raises(QhullError):
         alpha_complex(np.outer(np.arange(10.0), [1.0, 2.0]))
 
 
 @pytest.mark.parametrize(("dimension", "n"), [(2, 500), (2, 5000), (3, 3000)])
-def test_the_small_probe_radius_seldom_falls_into_the_cloud(dimension, n):
+def test_the_small_probe_radius_seldom_falls_into_the_cloud(dimension: int, n: int) -> None:
     holes = 0
     for seed in range(5):
         shape = alpha_complex(np.random.default_rng(seed).random((n, dimension)))
@@ -75,7 +75,7 @@ def test_the_small_probe_radius_seldom_falls_into_the_cloud(dimension, n):
     assert holes <= 2  # a tenth of a simplex each, on average
 
 
-def test_the_small_probe_radius_goes_with_the_spacing():
+def test_the_small_probe_radius_goes_with_the_spacing() -> None:
     radii = [
         small_probe_radius(alpha_complex(np.random.default_rng(3).random((n, 2)))) for n in (400, 1600, 6400)
     ]

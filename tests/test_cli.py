@@ -15,25 +15,25 @@ RNG = np.random.default_rng(0)
 CUBE = RNG.random((3000, 3))
 
 
-def run(*arguments: str, capsys) -> tuple[int, str, str]:
+def run(*arguments: str, capsys: pytest.CaptureFixture[str]) -> tuple[int, str, str]:
     code = _exit_code(list(arguments))
     out, err = capsys.readouterr()
     return code, out, err
 
 
 @pytest.fixture
-def here(tmp_path, monkeypatch) -> Path:
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     return tmp_path
 
 
 @pytest.fixture
-def cube(here) -> str:
+def cube(here: Path) -> str:
     np.savetxt(here / "cube.xyz", CUBE)
     return "cube.xyz"
 
 
-def test_sample_build_measure_info(here, capsys):
+def test_sample_build_measure_info(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     code, out, _ = run("sample", "lamp", "-n", "3000", "-o", "lamp.ply", "--goal", "goal.step", capsys=capsys)
     assert code == 0
     assert "3000 points" in out
@@ -55,7 +55,7 @@ def test_sample_build_measure_info(here, capsys):
         assert said in out
 
 
-def test_json_is_the_only_thing_on_standard_output(cube, capsys):
+def test_json_is_the_only_thing_on_standard_output(cube: str, capsys: pytest.CaptureFixture[str]) -> None:
     code, out, err = run("build", cube, "--json", "-v", capsys=capsys)
     assert code == 0
     facts = json.loads(out)
@@ -66,7 +66,7 @@ def test_json_is_the_only_thing_on_standard_output(cube, capsys):
     assert "slice planes: 0." in err
 
 
-def test_unit_is_written_and_read_back(cube, capsys):
+def test_unit_is_written_and_read_back(cube: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert run("build", cube, "--unit", "in", "-o", "m.step", capsys=capsys)[0] == 0
     code, out, _ = run("info", "m.step", "--json", capsys=capsys)
     assert code == 0
@@ -75,14 +75,14 @@ def test_unit_is_written_and_read_back(cube, capsys):
     assert facts["cube"]["volume"] == pytest.approx(1, rel=0.03)
 
 
-def test_a_report(cube, here, capsys):
+def test_a_report(cube: str, here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     code, out, _ = run("build", cube, "--report", "report.html", capsys=capsys)
     assert code == 0
     assert "report.html" in out
     assert "<html" in (here / "report.html").read_text(encoding="utf-8")
 
 
-def test_compare(here, capsys):
+def test_compare(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     run("sample", "cylinder", "-n", "1500", "--goal", "goal.step", capsys=capsys)
     code, out, _ = run(
         "compare", "cylinder.ply", "--goal", "goal.step", "--radii", "0.001,1.5", "-p", "c.png", capsys=capsys
@@ -93,7 +93,7 @@ def test_compare(here, capsys):
     assert (here / "c.png").exists()
 
 
-def test_options_from_a_toml_file(cube, here, capsys):
+def test_options_from_a_toml_file(cube: str, here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (here / "options.toml").write_text(
         '[build]\naxis = "x"\nshapes = "off"\noutput = ["t.step"]\njson = true\n'
     )
@@ -107,7 +107,9 @@ def test_options_from_a_toml_file(cube, here, capsys):
     assert json.loads(out)["bodies"][0]["direction"] == [0, 1, 0]
 
 
-def test_remarks_go_to_standard_error_and_quiet_keeps_them(here, capsys):
+def test_remarks_go_to_standard_error_and_quiet_keeps_them(
+    here: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     np.savetxt(here / "twice.xyz", np.r_[CUBE, CUBE[:7]])
     assert "7 of 3007 points are repeats" in run("build", "twice.xyz", capsys=capsys)[2]
     assert run("build", "twice.xyz", "-q", capsys=capsys)[2] == ""
@@ -127,7 +129,9 @@ BAD_CLOUDS = {
 
 
 @pytest.mark.parametrize("name", BAD_CLOUDS)
-def test_a_bad_cloud_gets_one_sentence_and_leaves_nothing(name, here, capsys):
+def test_a_bad_cloud_gets_one_sentence_and_leaves_nothing(
+    name: str, here: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     content, expected, said = BAD_CLOUDS[name]
     (here / name).write_bytes(content)
     code, out, err = run("build", name, "-o", "model.step", capsys=capsys)
@@ -138,7 +142,7 @@ def test_a_bad_cloud_gets_one_sentence_and_leaves_nothing(name, here, capsys):
     assert [file.name for file in here.iterdir()] == [name]
 
 
-def test_a_cloud_far_from_the_origin(here, capsys):
+def test_a_cloud_far_from_the_origin(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     np.savetxt(here / "far.xyz", CUBE + 1e9, fmt="%.6f")
     code, _, err = run("build", "far.xyz", capsys=capsys)
     assert code == 4
@@ -166,7 +170,9 @@ def test_a_cloud_far_from_the_origin(here, capsys):
         (["--config", "missing.toml"], 2, "missing.toml"),
     ],
 )
-def test_a_bad_option_gets_one_sentence_and_leaves_nothing(arguments, expected, said, cube, capsys):
+def test_a_bad_option_gets_one_sentence_and_leaves_nothing(
+    arguments: list[str], expected: int, said: str, cube: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     code, out, err = run("build", cube, *arguments, capsys=capsys)
     assert (code, out) == (expected, "")
     assert said in err
@@ -174,13 +180,13 @@ def test_a_bad_option_gets_one_sentence_and_leaves_nothing(arguments, expected, 
     assert [file.name for file in Path.cwd().iterdir()] == [cube]
 
 
-def test_a_probe_larger_than_the_section_is_said(cube, capsys):
+def test_a_probe_larger_than_the_section_is_said(cube: str, capsys: pytest.CaptureFixture[str]) -> None:
     code, _, err = run("build", cube, "--probe-radius", "50", capsys=capsys)
     assert code == 0
     assert "the probe radius is larger than the section" in err
 
 
-def test_missing_files_and_folders(here, capsys):
+def test_missing_files_and_folders(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (here / "folder.xyz").mkdir()
     assert run("build", "missing.xyz", capsys=capsys)[0] == 3
     assert run("build", "folder.xyz", capsys=capsys)[0] == 3
@@ -188,7 +194,7 @@ def test_missing_files_and_folders(here, capsys):
     assert run("info", "missing.ply", capsys=capsys)[0] == 3
 
 
-def test_help_is_quick_because_nothing_heavy_is_loaded():
+def test_help_is_quick_because_nothing_heavy_is_loaded() -> None:
     script = "import sys; from sketchloft import cli; cli._exit_code(['--help']); print(sorted(sys.modules))"
     out = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout
     assert "Usage: sketchloft" in out
@@ -196,12 +202,12 @@ def test_help_is_quick_because_nothing_heavy_is_loaded():
         assert heavy not in out
 
 
-def test_the_installed_command_and_its_version():
+def test_the_installed_command_and_its_version() -> None:
     command = Path(sys.executable).with_name("sketchloft")
     out = subprocess.run([command, "--version"], capture_output=True, text=True, check=True).stdout
     assert out.strip() == "0.1.0"
 
 
-def test_ranges():
+def test_ranges() -> None:
     assert ranges([0, 1, 2, 5, 7, 8]) == "0-2, 5, 7-8"
     assert ranges([4]) == "4"

@@ -1,3 +1,5 @@
+from typing import Any
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -18,29 +20,29 @@ def found(points: np.ndarray) -> np.ndarray:
 
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("name", TALL)
-def test_the_axis_of_a_goal_is_found(name, seed):
+def test_the_axis_of_a_goal_is_found(name: str, seed: int) -> None:
     assert np.abs(found(sample_goal(GOALS[name], 10_000, seed=seed).points)) == pytest.approx([0, 0, 1])
 
 
 @pytest.mark.parametrize("name", TALL)
-def test_other_names_of_the_axes_change_nothing(name):
+def test_other_names_of_the_axes_change_nothing(name: str) -> None:
     points = sample_goal(GOALS[name], 10_000, seed=4).points[:, [2, 0, 1]]
     assert np.abs(found(points)) == pytest.approx([1, 0, 0])
 
 
 @pytest.mark.parametrize("name", ["l-shape", "lamp", "cylinder"])
-def test_a_turned_goal_is_sliced_along_its_own_axis(name):
+def test_a_turned_goal_is_sliced_along_its_own_axis(name: str) -> None:
     vector = found(sample_goal(GOALS[name], 10_000, seed=5).points @ TURN.T)
     assert np.degrees(np.arccos(abs(vector @ TURN[:, 2]))) < 2
 
 
-def test_a_given_vector_wins_and_is_made_a_unit():
+def test_a_given_vector_wins_and_is_made_a_unit() -> None:
     direction = slicing_direction(np.eye(3), DirectionParams(axis=(0, 3, 4)))
     assert direction.vector == pytest.approx([0, 0.6, 0.8])
     assert len(direction.candidates) == 0
 
 
-def test_what_was_compared_is_kept():
+def test_what_was_compared_is_kept() -> None:
     points = clean(sample_goal(GOALS["l-shape"], 5000, seed=1)).points
     direction = slicing_direction(points, DirectionParams())
     assert direction.candidates.shape == (6, 3)
@@ -57,17 +59,17 @@ def test_what_was_compared_is_kept():
         ("1e3,-2,0", (1e3, -2, 0)),
     ],
 )
-def test_axes_are_read(text, axis):
+def test_axes_are_read(text: str, axis: Any) -> None:
     assert parse_axis(text) == axis
 
 
 @pytest.mark.parametrize("text", ["q", "1,2", "1,2,3,4", "0,0,0", "nan,0,1", "inf,0,0", ""])
-def test_wrong_axes_are_refused(text):
+def test_wrong_axes_are_refused(text: str) -> None:
     with pytest.raises(UsageError, match="axis: found"):
         parse_axis(text)
 
 
-def test_the_frame_is_right_handed_and_turns_with_the_points():
+def test_the_frame_is_right_handed_and_turns_with_the_points() -> None:
     points = np.random.default_rng(0).normal(size=(500, 3)) * [3, 2, 1]
     points -= points.mean(axis=0)
     frame = frame_along(np.array([0.0, 0.0, 1.0]), points)

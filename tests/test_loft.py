@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from sketchloft.edge_points import EdgePoints
-from sketchloft.loft import LoftParams, Section, loft
+from sketchloft.loft import Between, LoftParams, Section, loft
 from sketchloft.ring import ring_area, ring_is_simple
 from sketchloft.shapes.circle import Circle
 from sketchloft.shapes.ellipse import Ellipse
@@ -15,20 +15,20 @@ U = np.arange(200) / 200
 ROUND = [Section(float(z), Circle(np.array([0.1 * z, 0.0]), 2.0 + 0.1 * z)) for z in range(6)]
 
 
-def rings(sections, between="straight"):
+def rings(sections: list[Section], between: Between = "straight") -> np.ndarray:
     surface = loft(sections, LoftParams(between))
     heights = np.array([section.height for section in sections])
     return evaluate(surface, U, (heights - heights[0]) / np.ptp(heights))
 
 
 @pytest.mark.parametrize("between", ["straight", "smooth"])
-def test_the_loft_runs_through_its_sections(between):
+def test_the_loft_runs_through_its_sections(between: Between) -> None:
     for ring, section in zip(rings(ROUND, between), ROUND, strict=True):
         assert ring[:, 2] == pytest.approx(section.height, abs=1e-9)
         assert np.abs(section.shape.distance(ring[:, :2])).max() < 1e-5
 
 
-def test_straight_lofts_never_overshoot():
+def test_straight_lofts_never_overshoot() -> None:
     sections = [
         Section(0.0, Circle(np.zeros(2), 5.0)),
         Section(1.0, Circle(np.zeros(2), 5.0)),
@@ -42,7 +42,7 @@ def test_straight_lofts_never_overshoot():
     assert radius.min() > 1 - 1e-5
 
 
-def test_the_corners_of_rectangles_stay_sharp_and_circles_round():
+def test_the_corners_of_rectangles_stay_sharp_and_circles_round() -> None:
     sections = [
         Section(0.0, Circle(np.zeros(2), 1.5)),
         Section(1.0, Rectangle(np.zeros(2), np.array([2.0, 1.0]), 0.7)),
@@ -56,7 +56,7 @@ def test_the_corners_of_rectangles_stay_sharp_and_circles_round():
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_sections_that_start_anywhere_are_lofted_without_twist(seed):
+def test_sections_that_start_anywhere_are_lofted_without_twist(seed: int) -> None:
     rng = np.random.default_rng(seed)
     ellipse = Ellipse(np.zeros(2), np.array([3.0, 1.0]), 0.3)
     sections = []
@@ -69,7 +69,7 @@ def test_sections_that_start_anywhere_are_lofted_without_twist(seed):
     assert areas == pytest.approx(3 * np.pi, rel=0.01)  # a twisted loft has a waist
 
 
-def test_a_slow_turn_is_followed():
+def test_a_slow_turn_is_followed() -> None:
     sections = [
         Section(float(z), Rectangle(np.zeros(2), np.array([2.0, 1.0]), (0.15 * z) % np.pi)) for z in range(30)
     ]
@@ -79,13 +79,13 @@ def test_a_slow_turn_is_followed():
     assert min(areas) > 0.97 * 8
 
 
-def test_two_sections_are_enough_for_a_smooth_loft_too():
+def test_two_sections_are_enough_for_a_smooth_loft_too() -> None:
     surface = loft(ROUND[:2], LoftParams("smooth"))
     assert surface.v_degree == 1
     assert loft(ROUND, LoftParams("smooth")).v_degree == 3
 
 
-def test_ragged_sections_that_tangle_become_plainer():
+def test_ragged_sections_that_tangle_become_plainer() -> None:
     rng = np.random.default_rng(3)
     angle = 2 * np.pi * np.arange(60) / 60
     sections, edges = [], []
@@ -102,7 +102,7 @@ def test_ragged_sections_that_tangle_become_plainer():
         assert ring_is_simple(ring[:, :2])
 
 
-def test_sections_that_do_not_tangle_are_left_alone():
+def test_sections_that_do_not_tangle_are_left_alone() -> None:
     edges = [EdgePoints(s.height, 1.0, s.shape.evaluate(U), 1.0, 0, True) for s in ROUND]
     kept, _ = untangled(ROUND, edges, LoftParams())
     assert kept == tuple(ROUND)

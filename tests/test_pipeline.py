@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 
 import sketchloft
 import sketchloft.pipeline
-from sketchloft import Params, PointCloud, measure, read_cloud, reconstruct
+from sketchloft import Mesh, Params, PointCloud, measure, read_cloud, reconstruct
 from sketchloft.bodies import BodiesParams
 from sketchloft.brep.model import NamedSolid
 from sketchloft.brep.primitives import fuse
@@ -20,7 +20,7 @@ from sketchloft.direction import DirectionParams
 from sketchloft.edge_points import EdgePointsParams
 from sketchloft.errors import CloudError, StageError
 from sketchloft.loft import LoftParams
-from sketchloft.sample import GOALS, FillParams, sample_goal
+from sketchloft.sample import GOALS, Fill, FillParams, sample_goal
 from sketchloft.shapes.choice import ShapesParams
 from sketchloft.slice_planes import SlicePlanesParams
 from sketchloft.work_points import WorkPointsParams
@@ -33,7 +33,7 @@ BY_HAND = {"three-spheres": 8.9, "sphere": 11.4, "l-shape": 22.4, "lamp": 7.1}
 
 
 @functools.cache
-def goal_mesh(name: str):
+def goal_mesh(name: str) -> Mesh:
     return tessellate(fuse(GOALS[name].parts), 2e-5, 0.1)
 
 
@@ -45,18 +45,18 @@ def errors(name: str, cloud: PointCloud, params: Params) -> tuple[float, float]:
 
 
 @pytest.mark.parametrize("name", BY_HAND)
-def test_no_worse_than_half_of_the_method_rebuilt_by_hand(name):
+def test_no_worse_than_half_of_the_method_rebuilt_by_hand(name: str) -> None:
     cloud = sample_goal(GOALS[name], 10_000, seed=11)
     assert max(errors(name, cloud, Params(direction=Z))) < BY_HAND[name] / 2
 
 
-def test_the_l_without_recognition_reaches_its_aim():
+def test_the_l_without_recognition_reaches_its_aim() -> None:
     cloud = sample_goal(GOALS["l-shape"], 10_000, seed=12)
     assert max(errors("l-shape", cloud, Params(direction=Z, shapes=ShapesParams("off")))) < 8
 
 
 @pytest.mark.parametrize("shapes", ["off", "circle", "auto"])
-def test_three_spheres_with_every_way_of_recognition(shapes):
+def test_three_spheres_with_every_way_of_recognition(shapes: str) -> None:
     cloud = sample_goal(GOALS["three-spheres"], 10_000, seed=13)
     assert max(errors("three-spheres", cloud, Params(direction=Z, shapes=ShapesParams(shapes)))) < 4.5
 
@@ -64,7 +64,7 @@ def test_three_spheres_with_every_way_of_recognition(shapes):
 @pytest.mark.slow
 @pytest.mark.parametrize("n", [2000, 10_000, 50_000])
 @pytest.mark.parametrize("name", BY_HAND)
-def test_ten_seeds_give_ten_valid_solids(name, n):
+def test_ten_seeds_give_ten_valid_solids(name: str, n: int) -> None:
     goal = goal_mesh(name)
     rms = []
     for seed in range(10):
@@ -74,7 +74,7 @@ def test_ten_seeds_give_ten_valid_solids(name, n):
     assert max(rms) < BY_HAND[name] * max(1.0, (10_000 / n) ** 0.5)
 
 
-def test_along_the_slope_is_nearer_than_parallel():
+def test_along_the_slope_is_nearer_than_parallel() -> None:
     cloud = sample_goal(GOALS["three-spheres"], 10_000, seed=14)
     rms = [
         errors("three-spheres", cloud, Params(direction=Z, work_points=WorkPointsParams(working)))[0]
@@ -88,7 +88,7 @@ def test_along_the_slope_is_nearer_than_parallel():
     ("change", "scale"),
     [("shuffled", 1), ("shifted", 1), ("inches", 25.4), ("metres", 1e-3), ("turned", 1), ("renamed", 1)],
 )
-def test_the_model_does_not_depend_on_how_the_cloud_is_given(name, change, scale):
+def test_the_model_does_not_depend_on_how_the_cloud_is_given(name: str, change: str, scale: float) -> None:
     points = sample_goal(GOALS[name], 3000, seed=15).points
     turn = np.eye(3)
     if change == "turned":
@@ -108,7 +108,7 @@ def test_the_model_does_not_depend_on_how_the_cloud_is_given(name, change, scale
     assert other.facts.faces == one.facts.faces
 
 
-def test_the_solid_is_where_the_cloud_is():
+def test_the_solid_is_where_the_cloud_is() -> None:
     points = sample_goal(GOALS["lamp"], 3000, seed=16).points @ TURN.T + [100, -50, 7]
     body = reconstruct(PointCloud.of(points), Params(direction=DirectionParams(tuple(TURN[:, 2])))).bodies[0]
     mesh = tessellate(body.solid)
@@ -116,7 +116,7 @@ def test_the_solid_is_where_the_cloud_is():
     assert mesh.vertices.max(axis=0) == pytest.approx(points.max(axis=0), abs=0.5)
 
 
-def test_the_same_cloud_gives_the_same_bytes():
+def test_the_same_cloud_gives_the_same_bytes() -> None:
     def step() -> bytes:
         from sketchloft.brep.model import Model
 
@@ -127,7 +127,7 @@ def test_the_same_cloud_gives_the_same_bytes():
     assert step() == step()
 
 
-def test_a_hollow_cloud_becomes_a_full_solid():
+def test_a_hollow_cloud_becomes_a_full_solid() -> None:
     cloud = sample_goal(GOALS["sphere"], 5000, FillParams(fill="surface"), seed=18)
     body = reconstruct(cloud).bodies[0]
     assert body.facts.volume == pytest.approx(36 * np.pi, rel=0.02)
@@ -135,7 +135,7 @@ def test_a_hollow_cloud_becomes_a_full_solid():
 
 
 @pytest.mark.parametrize("fill", ["graded", "strokes"])
-def test_uneven_clouds_give_valid_solids(fill):
+def test_uneven_clouds_give_valid_solids(fill: Fill) -> None:
     for name in BY_HAND:
         body = reconstruct(
             sample_goal(GOALS[name], 10_000, FillParams(fill=fill), seed=4), Params(direction=Z)
@@ -143,7 +143,7 @@ def test_uneven_clouds_give_valid_solids(fill):
         assert body.facts.volume > 0
 
 
-def test_three_bodies_become_three_named_solids():
+def test_three_bodies_become_three_named_solids() -> None:
     ball = sample_goal(GOALS["sphere"], 2000, seed=19).points
     shift = np.array([[10, 0, 0], [0, 12, 3]])
     points = np.concatenate([ball, ball[:1500] + shift[0], ball[:1200] + shift[1]])
@@ -153,7 +153,7 @@ def test_three_bodies_become_three_named_solids():
         assert body.facts.volume == pytest.approx(36 * np.pi, rel=0.08)
 
 
-def test_every_option_is_heard():
+def test_every_option_is_heard() -> None:
     cloud = sample_goal(GOALS["cylinder"], 3000, seed=20)
     params = Params(
         BodiesParams(1),
@@ -173,30 +173,30 @@ def test_every_option_is_heard():
     assert body.surface.poles.shape[1] == 35
 
 
-def test_progress_names_every_stage_in_order():
+def test_progress_names_every_stage_in_order() -> None:
     seen: list[str] = []
     reconstruct(sample_goal(GOALS["box"], 1000, seed=21), progress=seen.append)
     assert tuple(seen) == sketchloft.pipeline.STAGES
 
 
-def test_too_small_a_body_is_named():
+def test_too_small_a_body_is_named() -> None:
     cloud = PointCloud.of(np.random.default_rng(0).random((100, 3)))
     with pytest.raises(StageError, match=r"bodies: cloud-\d+ has \d+ points, a body needs at least 60"):
         reconstruct(cloud, Params(BodiesParams(4)))
 
 
-def test_a_cloud_that_is_no_solid():
+def test_a_cloud_that_is_no_solid() -> None:
     with pytest.raises(CloudError):
         reconstruct(PointCloud.of(np.ones((500, 3))))
 
 
-def test_the_example_in_the_docstring():
+def test_the_example_in_the_docstring() -> None:
     failed, tried = doctest.testmod(sketchloft.pipeline)
     assert tried > 0
     assert failed == 0
 
 
-def test_all_names_of_the_library_are_there():
+def test_all_names_of_the_library_are_there() -> None:
     assert sorted(sketchloft.__all__) == sorted(sketchloft._HOMES)
     for name in sketchloft.__all__:
         assert getattr(sketchloft, name).__name__ == name
@@ -205,7 +205,7 @@ def test_all_names_of_the_library_are_there():
 
 
 @pytest.mark.skipif(not DATA.exists(), reason="the real data is not here")
-def test_a_real_surface_cloud_within_two_per_cent_of_its_radius():
+def test_a_real_surface_cloud_within_two_per_cent_of_its_radius() -> None:
     body = reconstruct(read_cloud(DATA / "clouds" / "sphere.ply")).bodies[0]
     radius = np.linalg.norm(tessellate(body.solid).vertices, axis=1)
     assert np.abs(radius / 25 - 1).max() < 0.02

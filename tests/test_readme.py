@@ -17,7 +17,9 @@ def blocks(language: str) -> list[str]:
 
 
 @pytest.mark.slow
-def test_the_worked_example_runs_word_for_word(tmp_path, monkeypatch, capsys):
+def test_the_worked_example_runs_word_for_word(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     monkeypatch.chdir(tmp_path)
     commands = [
         line for block in blocks("sh") for line in block.splitlines() if line.startswith("sketchloft ")
@@ -33,7 +35,7 @@ def test_the_worked_example_runs_word_for_word(tmp_path, monkeypatch, capsys):
 
 
 @pytest.mark.parametrize("document", ["README.md", "CONTRIBUTING.md"])
-def test_every_file_that_is_named_exists(document):
+def test_every_file_that_is_named_exists(document: str) -> None:
     text = (ROOT / document).read_text(encoding="utf-8")
     named = [
         *re.findall(r"\]\(([^)]+)\)", text),
@@ -43,7 +45,7 @@ def test_every_file_that_is_named_exists(document):
         assert (ROOT / file).exists(), file
 
 
-def test_every_make_target_that_is_named_exists():
+def test_every_make_target_that_is_named_exists() -> None:
     targets = re.findall(r"^([a-z-]+):", (ROOT / "Makefile").read_text(encoding="utf-8"), re.MULTILINE)
     for target in re.findall(r"`?make ([a-z-]+)", README):
         assert target in targets

@@ -17,7 +17,7 @@ def wavy(seed: int) -> np.ndarray:
     return (1 + 0.5 * rng.random(30))[:, None] * np.c_[np.cos(angle), np.sin(angle)]
 
 
-def test_a_triangle():
+def test_a_triangle() -> None:
     assert ring_area(TRIANGLE) == 6
     assert ring_area(TRIANGLE[::-1]) == -6
     assert ring_length(TRIANGLE) == 12
@@ -26,7 +26,7 @@ def test_a_triangle():
 
 
 @given(st.integers(0, 1000))
-def test_depth_and_centre_are_those_of_shapely(seed):
+def test_depth_and_centre_are_those_of_shapely(seed: int) -> None:
     ring = wavy(seed)
     polygon = shapely.Polygon(ring)
     points = np.random.default_rng(seed + 1).uniform(-2, 2, (200, 2))
@@ -37,7 +37,7 @@ def test_depth_and_centre_are_those_of_shapely(seed):
 
 
 @given(st.integers(0, 1000))
-def test_the_hull_of_a_ring_holds_it_and_keeps_its_turn(seed):
+def test_the_hull_of_a_ring_holds_it_and_keeps_its_turn(seed: int) -> None:
     ring = wavy(seed)
     hull = ring_hull(ring)
     assert ring_area(hull) == pytest.approx(shapely.Polygon(ring).convex_hull.area)
@@ -45,12 +45,12 @@ def test_the_hull_of_a_ring_holds_it_and_keeps_its_turn(seed):
     assert ring_depth(ring, hull).min() > -1e-12
 
 
-def test_a_ring_that_crosses_itself_is_not_simple():
+def test_a_ring_that_crosses_itself_is_not_simple() -> None:
     assert ring_is_simple(TRIANGLE)
     assert not ring_is_simple(np.array([[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]]))
 
 
-def test_the_outer_contour_leaves_holes_and_islands_out():
+def test_the_outer_contour_leaves_holes_and_islands_out() -> None:
     rng = np.random.default_rng(0)
     points = rng.uniform(-1, 1, (4000, 2))
     ring = points[np.linalg.norm(points, axis=1) > 0.5]
@@ -64,7 +64,7 @@ def test_the_outer_contour_leaves_holes_and_islands_out():
     assert ring_is_simple(found.points)
 
 
-def test_a_contour_that_touches_itself_is_cut_to_a_simple_ring():
+def test_a_contour_that_touches_itself_is_cut_to_a_simple_ring() -> None:
     # Two rows of triangles that share a corner only through a third part.
     rng = np.random.default_rng(5)
     for seed in range(20):
@@ -75,5 +75,5 @@ def test_a_contour_that_touches_itself_is_cut_to_a_simple_ring():
             assert found.area > 0
 
 
-def test_nothing_stays_where_the_probe_fits_through_everywhere():
+def test_nothing_stays_where_the_probe_fits_through_everywhere() -> None:
     assert outer_contour(alpha_complex(np.random.default_rng(0).random((50, 2))), 1e-6) is None

@@ -31,7 +31,7 @@ def noisy(shape: Shape, count: int = 60, noise: float = 0.01, seed: int = 0) -> 
 
 @settings(max_examples=50, deadline=None)
 @given(places, places, lengths, st.integers(0, 99))
-def test_a_circle_is_found_exactly(x, y, radius, seed):
+def test_a_circle_is_found_exactly(x: float, y: float, radius: float, seed: int) -> None:
     circle = Circle(np.array([x, y]), radius)
     found = fit_circle(circle.evaluate(np.random.default_rng(seed).random(12)))
     assert found.radius == pytest.approx(radius, rel=1e-6)
@@ -40,7 +40,7 @@ def test_a_circle_is_found_exactly(x, y, radius, seed):
 
 @settings(max_examples=50, deadline=None)
 @given(places, places, lengths, st.floats(1.1, 6), angles)
-def test_an_ellipse_is_found_exactly(x, y, short, ratio, angle):
+def test_an_ellipse_is_found_exactly(x: float, y: float, short: float, ratio: float, angle: float) -> None:
     ellipse = Ellipse(np.array([x, y]), np.array([short * ratio, short]), angle)
     found = fit_ellipse(ellipse.evaluate(np.arange(24) / 24))
     assert found.semi_axes == pytest.approx(ellipse.semi_axes, rel=1e-5)
@@ -50,7 +50,7 @@ def test_an_ellipse_is_found_exactly(x, y, short, ratio, angle):
 
 @settings(max_examples=50, deadline=None)
 @given(places, places, lengths, st.floats(1.1, 6), angles)
-def test_a_rectangle_is_found_exactly(x, y, short, ratio, angle):
+def test_a_rectangle_is_found_exactly(x: float, y: float, short: float, ratio: float, angle: float) -> None:
     rectangle = Rectangle(np.array([x, y]), np.array([short * ratio, short]), angle)
     found = fit_rectangle(rectangle.evaluate(np.arange(36) / 36))
     assert found.half_sides == pytest.approx(rectangle.half_sides, rel=1e-5)
@@ -58,7 +58,7 @@ def test_a_rectangle_is_found_exactly(x, y, short, ratio, angle):
     assert abs(np.sin(found.angle - angle)) < 1e-4
 
 
-def test_a_square_at_any_turn():
+def test_a_square_at_any_turn() -> None:
     for angle in np.linspace(0, np.pi / 2, 7):
         square = Rectangle(np.array([1.0, 2.0]), np.array([1.0, 1.0]), angle)
         assert fit_rectangle(noisy(square)).half_sides == pytest.approx([1, 1], abs=0.02)
@@ -73,7 +73,7 @@ def test_a_square_at_any_turn():
         fit_spline(Circle(np.array([1.0, 2.0]), 3.0).evaluate(AROUND), 16),
     ],
 )
-def test_what_every_shape_can_do(shape):
+def test_what_every_shape_can_do(shape: Shape) -> None:
     ring = shape.evaluate(AROUND)
     assert ring_area(ring) > 0
     assert shape.evaluate(np.array([0.0])) == pytest.approx(shape.evaluate(np.array([1.0])))
@@ -86,12 +86,12 @@ def test_what_every_shape_can_do(shape):
     assert inner < 0 < outer
 
 
-def test_the_corners_of_a_rectangle_are_at_the_quarters():
+def test_the_corners_of_a_rectangle_are_at_the_quarters() -> None:
     corners = Rectangle(np.zeros(2), np.array([2.0, 1.0]), 0.0).evaluate(np.arange(4) / 4)
     assert sorted(map(tuple, np.abs(corners))) == [(2, 1)] * 4
 
 
-def test_a_spline_follows_a_wave_with_enough_poles():
+def test_a_spline_follows_a_wave_with_enough_poles() -> None:
     angle = 2 * np.pi * AROUND
     wave = (1 + 0.2 * np.cos(5 * angle))[:, None] * np.c_[np.cos(angle), np.sin(angle)]
     errors = [np.abs(fit_spline(wave, count).distance(wave)).max() for count in (8, 16, 48)]
@@ -110,27 +110,27 @@ def test_a_spline_follows_a_wave_with_enough_poles():
         (fit_spline(np.array([[0, 0], [10, 0], [10, 4], [4, 4], [4, 10], [0, 10.0]]), 32), "spline"),
     ],
 )
-def test_the_kind_with_the_most_evidence_is_chosen(shape, kind, seed):
+def test_the_kind_with_the_most_evidence_is_chosen(shape: Shape, kind: str, seed: int) -> None:
     edges = [edge(noisy(shape, seed=10 * seed + i), float(i)) for i in range(4)]
     found = recognise(edges, np.array([0.0, 3.0]), ShapesParams())
     assert [one.kind for one in found] == [kind] * 4
 
 
-def test_each_run_between_key_heights_gets_its_own_kind():
+def test_each_run_between_key_heights_gets_its_own_kind() -> None:
     circle, rectangle = Circle(np.zeros(2), 2.0), Rectangle(np.zeros(2), np.array([3.0, 2.0]), 0.0)
     edges = [edge(noisy(circle if i < 4 else rectangle, seed=i), float(i)) for i in range(8)]
     found = recognise(edges, np.array([0.0, 4.0, 7.0]), ShapesParams())
     assert [one.kind for one in found] == ["circle"] * 4 + ["rectangle"] * 4
 
 
-def test_shapes_enclose_the_area_that_the_points_account_for():
+def test_shapes_enclose_the_area_that_the_points_account_for() -> None:
     points = noisy(Circle(np.zeros(2), 2.0))
     for kind in ("circle", "ellipse", "off"):
         (found,) = recognise([edge(points, area=14.0)], np.array([0.0, 0.0]), ShapesParams(kind))
         assert ring_area(found.evaluate(AROUND)) == pytest.approx(14, rel=1e-3)
 
 
-def test_simpler_splines_end_at_the_fewest_poles():
+def test_simpler_splines_end_at_the_fewest_poles() -> None:
     shape: Shape | None = fit_spline(noisy(Circle(np.zeros(2), 2.0)), 48)
     counts = []
     while shape is not None:
@@ -140,14 +140,14 @@ def test_simpler_splines_end_at_the_fewest_poles():
     assert simpler(Circle(np.zeros(2), 1.0), edge(noisy(Circle(np.zeros(2), 1.0)))) is None
 
 
-def test_a_contour_that_crosses_itself_is_named():
+def test_a_contour_that_crosses_itself_is_named() -> None:
     angle = 2 * np.pi * np.arange(40) / 40
     eight = np.c_[np.sin(angle), np.sin(2 * angle)]
     with pytest.raises(StageError, match="shapes, slice 0: the spline through 40 edge points crosses itself"):
         recognise([edge(eight, area=0.5)], np.array([0.0, 0.0]), ShapesParams("off"))
 
 
-def test_choices_for_all_and_for_single_slices():
+def test_choices_for_all_and_for_single_slices() -> None:
     assert choices("circle", 3) == ("circle",) * 3
     assert choices("3:circle,7-9:rectangle", 10) == (
         *["auto"] * 3, "circle", *["auto"] * 3, *["rectangle"] * 3
@@ -165,6 +165,6 @@ def test_choices_for_all_and_for_single_slices():
         ("", "found ''"),
     ],
 )
-def test_wrong_choices_are_refused(asked, said):
+def test_wrong_choices_are_refused(asked: str, said: str) -> None:
     with pytest.raises(UsageError, match=said):
         choices(asked, 4)

@@ -5,7 +5,7 @@ from sketchloft.errors import StageError
 from sketchloft.work_points import follow_slope, work_points
 
 
-def test_points_go_to_the_nearest_plane_and_keep_their_place_on_it():
+def test_points_go_to_the_nearest_plane_and_keep_their_place_on_it() -> None:
     points = np.random.default_rng(0).random((1000, 3)) * [1, 1, 4]
     heights = np.array([0.0, 1.0, 4.0])
     worked = work_points(points, heights)
@@ -19,7 +19,7 @@ def test_points_go_to_the_nearest_plane_and_keep_their_place_on_it():
     assert sorted(map(tuple, gathered)) == sorted(map(tuple, points[:, :2]))
 
 
-def test_a_slice_left_empty_is_named():
+def test_a_slice_left_empty_is_named() -> None:
     points = np.random.default_rng(0).random((1000, 3))
     with pytest.raises(StageError, match="work points, slice 2: found 0 points near height 5") as caught:
         work_points(points, np.array([0.0, 1.0, 5.0]))
@@ -27,7 +27,7 @@ def test_a_slice_left_empty_is_named():
     assert caught.value.exit_code == 5
 
 
-def test_along_the_slope_a_cone_is_worked_without_becoming_wider():
+def test_along_the_slope_a_cone_is_worked_without_becoming_wider() -> None:
     rng = np.random.default_rng(0)
     height = rng.random(20_000)
     radius = (2 - height) * np.sqrt(rng.random(20_000))
@@ -44,7 +44,7 @@ def test_along_the_slope_a_cone_is_worked_without_becoming_wider():
         assert wall - 0.05 < reach[1] < wall + 0.1
 
 
-def test_a_step_is_no_slope():
+def test_a_step_is_no_slope() -> None:
     points = np.random.default_rng(0).random((1000, 3)) * [1, 1, 2] - [0.5, 0.5, 0]
     heights = np.array([0.0, 0.5, 0.99, 1.01, 1.5, 2.0])
     areas = np.array([1.0, 1.0, 1.0, 9.0, 9.0, 9.0])

@@ -14,7 +14,7 @@ from sketchloft.cloud import Floats
 from sketchloft.errors import StageError, UsageError
 from sketchloft.outer_contour import Contour, outer_contour
 from sketchloft.probe_radius import small_probe_radius
-from sketchloft.ring import ring_centre, ring_depth, ring_hull, ring_length
+from sketchloft.ring import ring_area, ring_centre, ring_depth, ring_hull, ring_length
 from sketchloft.work_points import WorkedSlice
 
 __all__ = ["EdgePoints", "EdgePointsParams", "edge_points", "parse_probe_radius"]
@@ -229,6 +229,9 @@ def _automatic(shapes: Sequence[AlphaComplex]) -> tuple[Floats, list[Contour]]:
 def _smallest(shape: AlphaComplex, index: int) -> tuple[float, Contour]:
     """Small probe radius, larger where the section is a skin with gaps that the probe would fall through."""
     small = small_probe_radius(shape)
+    first = outer_contour(shape, small)
+    if first is not None and first.share > WHOLE and first.filled > 1 - 1e-9 and _is_wide(first):
+        return small, first
     tried = [(small * STEP**k, outer_contour(shape, small * STEP**k)) for k in range(-STEPS, STEPS)]
     whole = [(radius, found) for radius, found in tried if found is not None and _is_section(found, shape)]
     if not whole:
@@ -237,6 +240,11 @@ def _smallest(shape: AlphaComplex, index: int) -> tuple[float, Contour]:
     if emptiest.filled > SKIN:
         return _without_holes(shape, small) or whole[-1]
     return next((radius, found) for radius, found in whole if found.area >= CLOSED * emptiest.area)
+
+
+def _is_wide(contour: Contour) -> bool:
+    """Whether a contour takes so much of its hull that it does not run around inside an open skin."""
+    return contour.area >= OPEN * ring_area(ring_hull(contour.points))
 
 
 def _without_holes(shape: AlphaComplex, small: float) -> tuple[float, Contour] | None:

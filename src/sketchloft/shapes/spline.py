@@ -43,7 +43,7 @@ class ClosedSpline:
 
     def distance(self, points: Floats) -> Floats:
         """Signed distance (m,) of points (m, 2) from a fine polyline of it, positive outside."""
-        ring = self.evaluate(np.arange(16 * len(self.poles)) / (16 * len(self.poles)))
+        ring = self.evaluate(np.arange(8 * len(self.poles)) / (8 * len(self.poles)))
         return -ring_depth(points, ring)
 
     def grown(self, offset: float) -> ClosedSpline:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import contextlib
 import os
-from collections.abc import Mapping
+from collections.abc import Iterator
 from pathlib import Path
 
 from sketchloft.errors import OutputError
 
-__all__ = ["check_writable", "write_all"]
+__all__ = ["beside", "check_writable"]
 
 
 def check_writable(path: Path) -> None:
@@ -29,28 +29,41 @@ def check_writable(path: Path) -> None:
         raise OutputError(f"{path}: the folder {folder} is not writable; choose another one")
 
 
-def write_all(contents: Mapping[Path, bytes]) -> None:
+@contextlib.contextmanager
+def beside(*paths: Path) -> Iterator[Iterator[Path]]:
     """Write files beside their places first and rename them last, so that all are written or none.
 
     Parameters
     ----------
-    contents : mapping of Path to bytes
+    *paths : Path
+        Replaced where they exist.
+
+    Yields
+    ------
+    iterator of Path
+        Where to write each of them in turn, with the same extension.
 
     Raises
     ------
     OutputError
         If one cannot be written; then none is touched.
     """
-    beside = {path: path.with_name(f".{path.name}.{os.getpid()}.part") for path in contents}
-    path = next(iter(contents), Path())
+    parts = {path.with_name(f".{path.stem}.{os.getpid()}.part{path.suffix}"): path for path in paths}
+    current = paths[0]
+
+    def in_turn() -> Iterator[Path]:
+        nonlocal current
+        for part, path in parts.items():
+            current = path
+            yield part
+
     try:
-        for path, content in contents.items():
-            beside[path].write_bytes(content)
-        for path, part in beside.items():
-            part.replace(path)
+        yield in_turn()
+        for part in in_turn():
+            part.replace(current)
     except OSError as error:
-        raise OutputError(f"{path}: cannot be written: {error.strerror or error}") from None
+        raise OutputError(f"{current}: cannot be written: {error.strerror or error}") from None
     finally:
-        for part in beside.values():
+        for part in parts:
             with contextlib.suppress(OSError):
                 part.unlink(missing_ok=True)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import functools
 import os
 from collections.abc import Sequence
@@ -13,6 +12,7 @@ from sketchloft.brep.model import METRES, Fineness, Model, NamedSolid
 from sketchloft.cloud import Unit
 from sketchloft.errors import InputError, OutputError
 from sketchloft.mesh import Mesh, concatenated
+from sketchloft.output import beside, check_writable
 
 __all__ = ["check_outputs", "load_mesh", "read_model", "write_model"]
 
@@ -29,13 +29,7 @@ def check_outputs(paths: Sequence[PathLike]) -> None:
     """
     for path in map(Path, paths):
         format_of(path, MODEL_FORMATS, OutputError)
-        folder = path.parent
-        if path.is_dir():
-            raise OutputError(f"{path}: is a folder, expected a file; add a name such as model.step")
-        if not folder.is_dir():
-            raise OutputError(f"{path}: the folder {folder} does not exist; make it first")
-        if not os.access(folder, os.W_OK | os.X_OK):
-            raise OutputError(f"{path}: the folder {folder} is not writable; choose another one")
+        check_writable(path)
 
 
 def write_model(
@@ -75,19 +69,9 @@ def write_model(
     model = Model(tuple(bodies), unit)
     meshes = functools.cache(functools.partial(_meshes, model, fineness or Fineness()))
     targets = list(dict.fromkeys(map(Path, several)))
-    beside = [path.with_name(f".{path.stem}.{os.getpid()}.part{path.suffix}") for path in targets]
-    path = targets[0]
-    try:
-        for path, part in zip(targets, beside, strict=True):
-            part.write_bytes(format_of(path, MODEL_FORMATS, OutputError).write(model, meshes))
-        for path, part in zip(targets, beside, strict=True):
-            part.replace(path)
-    except OSError as error:
-        raise OutputError(f"{path}: cannot be written: {error.strerror or error}") from None
-    finally:
-        for part in beside:
-            with contextlib.suppress(OSError):
-                part.unlink(missing_ok=True)
+    with beside(*targets) as parts:
+        for target, part in zip(targets, parts, strict=True):
+            part.write_bytes(format_of(target, MODEL_FORMATS, OutputError).write(model, meshes))
 
 
 def read_model(path: PathLike) -> Model:

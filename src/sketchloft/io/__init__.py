@@ -6,7 +6,6 @@ and put its FORMAT into FORMATS; help texts, tables and round-trip tests follow.
 
 from __future__ import annotations
 
-import contextlib
 import os
 import stat
 from dataclasses import replace
@@ -17,6 +16,7 @@ from sketchloft.errors import InputError, OutputError, UsageError
 from sketchloft.io import npy, pcd, ply, text
 from sketchloft.io.content import HEAD, recognise
 from sketchloft.io.format import Format
+from sketchloft.output import beside
 
 __all__ = ["FORMATS", "Format", "format_of", "read_cloud", "write_cloud"]
 
@@ -110,15 +110,8 @@ def write_cloud(path: str | os.PathLike[str], cloud: PointCloud) -> None:
     if write is None:
         known = " ".join(known for one in FORMATS if one.write for known in one.suffixes)
         raise OutputError(f"{path}: cannot write the extension {suffix or '(none)'}; choose one of {known}")
-    beside = path.with_name(f".{path.stem}.{os.getpid()}.part{path.suffix}")
-    try:
-        write(beside, cloud)
-        beside.replace(path)
-    except OSError as error:
-        raise OutputError(f"{path}: cannot be written: {error.strerror or error}") from None
-    finally:
-        with contextlib.suppress(OSError):
-            beside.unlink(missing_ok=True)
+    with beside(path) as parts:
+        write(next(parts), cloud)
 
 
 def _named(name: str) -> Format:

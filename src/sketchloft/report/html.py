@@ -12,7 +12,7 @@ import numpy as np
 from sketchloft import __version__
 from sketchloft.cloud import Unit
 from sketchloft.measurement import Measurement
-from sketchloft.output import write_all
+from sketchloft.output import beside
 from sketchloft.pipeline import BodyModel, Reconstruction
 from sketchloft.report.body_story import body_story
 from sketchloft.report.goal_story import goal_story
@@ -64,7 +64,8 @@ def write_report(
         [section(name, *content, anchor=f"part-{i}") for i, (name, content) in enumerate(parts)],
         foot,
     )
-    write_all({Path(path): text.encode("utf-8")})
+    with beside(Path(path)) as files:
+        next(files).write_text(text, encoding="utf-8")
 
 
 def _title(names: list[str]) -> str:

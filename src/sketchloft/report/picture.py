@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import os
 from pathlib import Path
 
@@ -10,6 +9,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from sketchloft.errors import OutputError
+from sketchloft.output import beside
 
 __all__ = ["new_figure", "save_figure"]
 
@@ -42,12 +42,5 @@ def save_figure(figure: Figure, path: str | os.PathLike[str], *, dpi: float = 14
         raise OutputError(
             f"{path}: cannot write a picture with the extension {path.suffix or '(none)'}; choose .png"
         )
-    beside = path.with_name(f".{path.stem}.{os.getpid()}.part{path.suffix}")
-    try:
-        figure.savefig(beside, dpi=dpi, metadata={"Software": None})
-        beside.replace(path)
-    except OSError as error:
-        raise OutputError(f"{path}: cannot be written: {error.strerror or error}") from None
-    finally:
-        with contextlib.suppress(OSError):
-            beside.unlink(missing_ok=True)
+    with beside(path) as parts:
+        figure.savefig(next(parts), dpi=dpi, metadata={"Software": None})

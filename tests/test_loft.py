@@ -9,7 +9,7 @@ from sketchloft.shapes.ellipse import Ellipse
 from sketchloft.shapes.rectangle import Rectangle
 from sketchloft.shapes.spline import fit_spline
 from sketchloft.surface import evaluate
-from sketchloft.untangle import untangled
+from sketchloft.untangle import _borrow, untangled
 
 U = np.arange(200) / 200
 ROUND = [Section(float(z), Circle(np.array([0.1 * z, 0.0]), 2.0 + 0.1 * z)) for z in range(6)]
@@ -106,3 +106,11 @@ def test_sections_that_do_not_tangle_are_left_alone() -> None:
     edges = [EdgePoints(s.height, 1.0, s.shape.evaluate(U), 1.0, 0, True) for s in ROUND]
     kept, _ = untangled(ROUND, edges, LoftParams())
     assert kept == tuple(ROUND)
+
+
+def test_a_section_that_cannot_be_made_plainer_borrows_once() -> None:
+    sections = [Section(0.0, Circle(np.zeros(2), 1.0)), Section(1.0, Circle(np.zeros(2), 2.0))]
+    assert _borrow(sections, [0])
+    assert sections[1].shape is sections[0].shape
+    assert [section.borrowed for section in sections] == [False, True]
+    assert not _borrow(sections, [0])

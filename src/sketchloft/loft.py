@@ -48,10 +48,13 @@ class Section:
     ----------
     height : float
     shape : Shape
+    borrowed : bool
+        Whether the shape is that of the neighbouring section, because its own could not be lofted.
     """
 
     height: float
     shape: Shape
+    borrowed: bool = False
 
 
 def loft(sections: Sequence[Section], params: LoftParams) -> SkinSurface:

@@ -32,7 +32,7 @@ def remarks(result: Reconstruction) -> tuple[str, ...]:
     several = len(result.bodies) > 1
     for body in result.bodies:
         prefix = f"{body.name}: " if several else ""
-        found += [prefix + text for text in (*_left_out(body), *_all_hull(body, result))]
+        found += [prefix + text for text in (*_left_out(body), *_all_hull(body, result), *_borrowed(body))]
     return tuple(found)
 
 
@@ -48,6 +48,16 @@ def _left_out(body: BodyModel) -> list[str]:
     return [
         f"edge points, slices {ranges(slices)}: {count} inner or separate contours were left out; the "
         "method keeps one outer contour per slice, so holes are closed and side branches are lost"
+    ]
+
+
+def _borrowed(body: BodyModel) -> list[str]:
+    slices = [i for i, section in enumerate(body.sections) if section.borrowed]
+    if not slices:
+        return []
+    return [
+        f"loft, slices {ranges(slices)}: the contour is too ragged to be lofted, so the shape of the "
+        "neighbouring slice was taken; use a larger probe radius or more points per slice"
     ]
 
 

@@ -16,8 +16,8 @@ from sketchloft.surface import SkinSurface, evaluate
 
 __all__ = ["untangled"]
 
-AROUND = 256
-"""Points around a section that show whether it is simple."""
+AROUND = 768
+"""Points around a section that show whether it is simple, as many as the check of the solid looks at."""
 WITHIN = np.array([0.0, 0.25, 0.5, 0.75, 1.0])
 """Where, from one section to the next, the skin is looked at."""
 
@@ -28,7 +28,8 @@ def untangled(
     """Loft the sections, with plainer ones where rough ones tangle.
 
     Neighbouring splines that follow ragged contours closely can cross on the way from one to the other,
-    though each of them is simple. Such a pair gets fewer control points, again and again.
+    though each of them is simple. Such a pair gets fewer control points, again and again; where that does
+    not help, one of the two borrows the shape of the other.
 
     Parameters
     ----------
@@ -53,10 +54,20 @@ def untangled(
             for i in (gap, gap + 1)
             if (shape := simpler(kept[i].shape, edges[i])) is not None
         }
-        if not plainer:
-            return tuple(kept), surface
         for i, shape in plainer.items():
             kept[i] = replace(kept[i], shape=shape)
+        if not plainer and not _borrow(kept, _tangled(surface, heights)):
+            return tuple(kept), surface
+
+
+def _borrow(sections: list[Section], gaps: list[int]) -> bool:
+    """Let one section at the first of these gaps take its neighbour's shape; each may do so once."""
+    for gap in gaps:
+        for i, other in ((gap + 1, gap), (gap, gap + 1)):
+            if not sections[i].borrowed and sections[i].shape is not sections[other].shape:
+                sections[i] = replace(sections[i], shape=sections[other].shape, borrowed=True)
+                return True
+    return False
 
 
 def _tangled(surface: SkinSurface, heights: Floats) -> list[int]:

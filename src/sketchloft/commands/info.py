@@ -80,4 +80,6 @@ def _text(value: Any) -> str:
         return ", ".join(f"{key} {_text(one)}" for key, one in value.items())
     if isinstance(value, list):
         return "(" + ", ".join(f"{x:.6g}" for x in value) + ")"
+    if value is None:
+        return "not told"
     return f"{value:.6g}" if isinstance(value, float) else str(value)

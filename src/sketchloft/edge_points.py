@@ -230,7 +230,7 @@ def _smallest(shape: AlphaComplex, index: int) -> tuple[float, Contour]:
     """Small probe radius, larger where the section is a skin with gaps that the probe would fall through."""
     small = small_probe_radius(shape)
     first = outer_contour(shape, small)
-    if first is not None and first.share > WHOLE and first.filled > 1 - 1e-9 and _is_wide(first):
+    if first is not None and _is_whole(first) and _is_wide(first):
         return small, first
     tried = [(small * STEP**k, outer_contour(shape, small * STEP**k)) for k in range(-STEPS, STEPS)]
     whole = [(radius, found) for radius, found in tried if found is not None and _is_section(found, shape)]
@@ -240,6 +240,11 @@ def _smallest(shape: AlphaComplex, index: int) -> tuple[float, Contour]:
     if emptiest.filled > SKIN:
         return _without_holes(shape, small) or whole[-1]
     return next((radius, found) for radius, found in whole if found.area >= CLOSED * emptiest.area)
+
+
+def _is_whole(contour: Contour) -> bool:
+    """Whether a contour surrounds all but strays, without a hole."""
+    return contour.filled > 1 - 1e-9 and contour.share > WHOLE
 
 
 def _is_wide(contour: Contour) -> bool:
@@ -257,7 +262,7 @@ def _without_holes(shape: AlphaComplex, small: float) -> tuple[float, Contour] |
         found = outer_contour(shape, small * FINE_STEP**k)
         if found is not None and _is_section(found, shape):
             first = first or (small * FINE_STEP**k, found)
-            if found.filled > 1 - 1e-9 and found.share > WHOLE:
+            if _is_whole(found):
                 return small * FINE_STEP**k, found
     return first
 

@@ -8,9 +8,11 @@ from typing import Literal
 import numpy as np
 
 from sketchloft.alpha_shape import alpha_complex, boundary_facets, components
-from sketchloft.cloud import Floats, Ints
+from sketchloft.cloud import Floats
 from sketchloft.errors import StageError, UsageError
 from sketchloft.probe_radius import small_probe_radius
+from sketchloft.profile import chance_tolerance, local_extrema, on_ledge, profile_steps
+from sketchloft.shapes.circle import algebraic_centre
 
 __all__ = [
     "AxisDistance",
@@ -30,9 +32,6 @@ BINS_PER_SLICE = 2
 OUTER = 0.95
 """Quantile of the distances that stands for the section's reach: the inner parts of a section hardly
 lower it, single stray points do not raise it."""
-LEVEL = 0.02
-"""Differences of the profile below this share of its greatest value are no extrema."""
-JUMP = 3.0
 LEDGE = 0.02
 """A step is bracketed by two planes, this share of the mean slice thickness above and below it."""
 MERGE = 10
@@ -147,10 +146,10 @@ def slice_planes(points: Floats, params: SlicePlanesParams) -> SlicePlanes:
     per_slice = _per_slice(len(points), params.per_slice)
     found = _axis_distance(points, params.central_axis, BINS_PER_SLICE * len(points) // per_slice)
     bottom, top = found.points[:, 2].min(), found.points[:, 2].max()
-    tolerance = _tolerance(found.profile)
-    jumps = _steps(found.profile, tolerance)
+    tolerance = chance_tolerance(found.profile)
+    jumps = profile_steps(found.profile, tolerance)
     extrema = [
-        i for i in _extrema(found.profile, tolerance) if not _on_ledge(i, jumps, found.profile, tolerance)
+        i for i in local_extrema(found.profile, tolerance) if not on_ledge(i, jumps, found.profile, tolerance)
     ]
     inner = found.heights[extrema]
     steps = np.array([_placed(step, points, found) for step in jumps])
@@ -210,7 +209,7 @@ def _per_slice(count: int, asked: Literal["auto"] | int) -> int:
 def _axis_distance(points: Floats, rule: CentralAxis, bins: int) -> AxisDistance:
     surface = surface_points(points)
     across, height = surface[:, :2], surface[:, 2]
-    axis = across.mean(axis=0) if rule == "mean" else _circle_centre(across)
+    axis = across.mean(axis=0) if rule == "mean" else algebraic_centre(across)
     distance = np.linalg.norm(across - axis, axis=1)
     edges = np.linspace(height.min(), height.max(), max(8, bins) + 1)
     order = np.argsort(height, kind="stable")
@@ -220,72 +219,6 @@ def _axis_distance(points: Floats, rule: CentralAxis, bins: int) -> AxisDistance
     rank = max(2, round((1 - OUTER) * float(np.median([len(part) for part in parts]))))
     profile = np.array([np.sort(distance[part])[-min(rank, len(part))] for part in parts])
     return AxisDistance(axis, surface, distance, heights, profile)
-
-
-def _circle_centre(across: Floats) -> Floats:
-    """Centre of the circle with the least algebraic error (Kåsa 1976)."""
-    middle = across.mean(axis=0)
-    local = across - middle
-    design = np.c_[2 * local, np.ones(len(local))]
-    solution = np.linalg.lstsq(design, np.einsum("ij,ij->i", local, local), rcond=None)[0]
-    return middle + solution[:2]
-
-
-def _tolerance(profile: Floats) -> float:
-    """Difference that chance alone makes between two bins, judged by the third differences.
-
-    A smooth profile has hardly any; for white noise their standard deviation is the root of 20 as large.
-    """
-    sigma = 1.4826 * float(np.median(np.abs(np.diff(profile, 3)))) / np.sqrt(20)
-    return max(5 * sigma, LEVEL * float(profile.max()))
-
-
-def _extrema(profile: Floats, tolerance: float) -> Ints:
-    """Indices of the inner extrema whose neighbours all differ by more than the tolerance."""
-    slope = np.sign(np.diff(profile))
-    turning = np.flatnonzero(slope[1:] * slope[:-1] < 0) + 1
-    chain = np.r_[0, turning, len(profile) - 1]
-    while len(chain) > 2:
-        step = np.abs(np.diff(profile[chain]))
-        weakest = int(np.argmin(step))
-        if step[weakest] > tolerance:
-            break
-        # An inner pair goes together, so that highs and lows still alternate; at the ends one goes.
-        drop = [weakest, weakest + 1]
-        chain = np.delete(chain, [i for i in drop if 0 < i < len(chain) - 1])
-    return chain[1:-1]
-
-
-def _steps(profile: Floats, tolerance: float) -> list[tuple[int, int]]:
-    """Pairs of bins, neighbours or next but one, between which the profile jumps.
-
-    A jump is three times what the profile changes on either side of it, over as many bins.
-    """
-    found: list[tuple[float, int, int]] = []
-    for width in (1, 2):
-        change = np.abs(profile[width:] - profile[:-width])
-        unknown = np.full(width, -np.inf)
-        padded = np.r_[unknown, change, unknown]
-        beside = np.maximum(padded[: len(change)], padded[2 * width :])
-        # At an end only one side shows how steep the profile is anyway, so that it has to show it twice.
-        at_end = np.isinf(padded[: len(change)]) | np.isinf(padded[2 * width :])
-        jumps = np.flatnonzero((change > 2 * tolerance) & (change > JUMP * (1 + at_end) * beside))
-        found += [(-float(change[i]) / width, int(i), int(i) + width) for i in jumps]
-    steps: list[tuple[int, int]] = []
-    for _, low, high in sorted(found):
-        if all(high <= a or low >= b for a, b in steps):
-            steps.append((low, high))
-    return steps
-
-
-def _on_ledge(extremum: int, steps: list[tuple[int, int]], profile: Floats, tolerance: float) -> bool:
-    """Whether the profile is level from an extremum to a step, whose planes then stand for it."""
-    for low, high in steps:
-        ledge = high if extremum >= high else low
-        between = profile[min(extremum, ledge) : max(extremum, ledge) + 1]
-        if np.ptp(between) <= tolerance:
-            return True
-    return False
 
 
 def _placed(step: tuple[int, int], points: Floats, found: AxisDistance) -> float:

@@ -48,15 +48,16 @@ def untangled(
     heights = np.array([section.height for section in sections])
     while True:
         surface = loft(kept, params)
+        gaps = _tangled(surface, heights)
         plainer = {
             i: shape
-            for gap in _tangled(surface, heights)
+            for gap in gaps
             for i in (gap, gap + 1)
             if (shape := simpler(kept[i].shape, edges[i])) is not None
         }
         for i, shape in plainer.items():
             kept[i] = replace(kept[i], shape=shape)
-        if not plainer and not _borrow(kept, _tangled(surface, heights)):
+        if not plainer and not _borrow(kept, gaps):
             return tuple(kept), surface
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 
-__all__ = ["Circle", "fit_circle"]
+__all__ = ["Circle", "algebraic_centre", "fit_circle"]
 
 
 @dataclass(frozen=True)
@@ -64,9 +64,7 @@ def fit_circle(points: Floats) -> Circle:
     """
     middle = points.mean(axis=0)
     local = points - middle
-    design = np.c_[2 * local, np.ones(len(local))]
-    x, y, c = np.linalg.lstsq(design, np.einsum("ij,ij->i", local, local), rcond=None)[0]
-    centre, radius = np.array([x, y]), float(np.sqrt(max(c + x * x + y * y, 0.0)))
+    centre, radius = _algebraic(local)
     for _ in range(20):
         outwards = local - centre
         reach = np.linalg.norm(outwards, axis=1)
@@ -76,3 +74,16 @@ def fit_circle(points: Floats) -> Circle:
         if np.abs(step).max() < 1e-12 * radius:
             break
     return Circle(middle + centre, radius)
+
+
+def algebraic_centre(points: Floats) -> Floats:
+    """Centre (2,) of the circle with the least algebraic error (Kåsa 1976) for points (m, 2)."""
+    middle = points.mean(axis=0)
+    return middle + _algebraic(points - middle)[0]
+
+
+def _algebraic(local: Floats) -> tuple[Floats, float]:
+    """Kåsa's centre and radius for points about their mean."""
+    design = np.c_[2 * local, np.ones(len(local))]
+    x, y, c = np.linalg.lstsq(design, np.einsum("ij,ij->i", local, local), rcond=None)[0]
+    return np.array([x, y]), float(np.sqrt(max(c + x * x + y * y, 0.0)))

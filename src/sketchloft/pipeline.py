@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from sketchloft.cloud import MIN_POINTS, CleanCloud, Floats, PointCloud, clean
 from sketchloft.direction import Direction, DirectionParams, slicing_direction
 from sketchloft.edge_points import EdgePoints, EdgePointsParams, edge_points
 from sketchloft.errors import StageError
+from sketchloft.exact import EXACT_STAGES, ExactBody, ExactParams, exact_body
 from sketchloft.frame import Frame, frame_along
 from sketchloft.loft import LoftParams, Section
 from sketchloft.shapes.choice import ShapesParams
@@ -26,7 +27,7 @@ if TYPE_CHECKING:  # the kernel takes most of a second to load
     from sketchloft.brep.facts import SolidFacts
     from sketchloft.brep.solid import Solid
 
-__all__ = ["STAGES", "BodyModel", "Params", "Progress", "Reconstruction", "reconstruct"]
+__all__ = ["EXACT_STAGES", "STAGES", "BodyModel", "Params", "Progress", "Reconstruction", "reconstruct"]
 
 STAGES = (
     "input",
@@ -40,6 +41,8 @@ STAGES = (
     "solid",
 )
 
+Method = Literal["exact", "paper"]
+
 Progress = Callable[[str], None]
 """Called with the name of each stage when it begins."""
 
@@ -50,7 +53,10 @@ class Params:
 
     Parameters
     ----------
+    method : {"exact", "paper"}
+        Runs of exact walls fitted to all points at once, or the paper's slices and loft.
     bodies : BodiesParams
+    exact : ExactParams
     direction : DirectionParams
     slice_planes : SlicePlanesParams
     work_points : WorkPointsParams
@@ -59,7 +65,9 @@ class Params:
     loft : LoftParams
     """
 
+    method: Method = "exact"
     bodies: BodiesParams = field(default_factory=BodiesParams)
+    exact: ExactParams = field(default_factory=ExactParams)
     direction: DirectionParams = field(default_factory=DirectionParams)
     slice_planes: SlicePlanesParams = field(default_factory=SlicePlanesParams)
     work_points: WorkPointsParams = field(default_factory=WorkPointsParams)
@@ -113,13 +121,13 @@ class Reconstruction:
     ----------
     cloud : CleanCloud
     params : Params
-    bodies : tuple of BodyModel
+    bodies : tuple of ExactBody or BodyModel, as the method is
         The largest first.
     """
 
     cloud: CleanCloud
     params: Params
-    bodies: tuple[BodyModel, ...]
+    bodies: tuple[ExactBody | BodyModel, ...]
 
 
 def reconstruct(
@@ -168,12 +176,16 @@ def reconstruct(
     return Reconstruction(cleaned, params, tuple(bodies))
 
 
-def _body(name: str, points: Floats, centre: Floats, params: Params, progress: Progress) -> BodyModel:
+def _body(
+    name: str, points: Floats, centre: Floats, params: Params, progress: Progress
+) -> ExactBody | BodyModel:
     if len(points) < MIN_POINTS:
         raise StageError(
             f"{name} has {len(points)} points, a body needs at least {MIN_POINTS}; ask for fewer bodies",
             stage="bodies",
         )
+    if params.method == "exact":
+        return exact_body(name, points, centre, params.direction.axis, params.exact, progress)
     progress("direction")
     middle = points.mean(axis=0)
     direction = slicing_direction(points - middle, params.direction)

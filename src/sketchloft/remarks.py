@@ -6,6 +6,7 @@ import itertools
 
 import numpy as np
 
+from sketchloft.exact import ExactBody
 from sketchloft.pipeline import BodyModel, Reconstruction
 
 __all__ = ["remarks"]
@@ -32,6 +33,8 @@ def remarks(result: Reconstruction) -> tuple[str, ...]:
     several = len(result.bodies) > 1
     for body in result.bodies:
         prefix = f"{body.name}: " if several else ""
+        if isinstance(body, ExactBody):
+            continue
         found += [prefix + text for text in (*_left_out(body), *_all_hull(body, result), *_borrowed(body))]
     return tuple(found)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated
 
 from cyclopts import Parameter
 
@@ -17,7 +17,8 @@ from sketchloft.edge_points import EdgePointsParams, parse_probe_radius
 from sketchloft.io import read_cloud
 from sketchloft.loft import Between, LoftParams
 from sketchloft.output import check_writable
-from sketchloft.pipeline import STAGES, Params, reconstruct
+from sketchloft.exact import ExactParams
+from sketchloft.pipeline import EXACT_STAGES, STAGES, Method, Params, reconstruct
 from sketchloft.shapes.choice import ShapesParams
 from sketchloft.slice_planes import CentralAxis, SlicePlanesParams, parse_per_slice
 from sketchloft.summary import summary, summary_lines
@@ -39,7 +40,9 @@ def build(
             "[default: the cloud's name with .step]",
         ),
     ] = None,
-    method: Annotated[Literal["paper"], Parameter(help="paper: slice and loft.")] = "paper",
+    method: Annotated[
+        Method, Parameter(help="exact: runs of exact walls fitted to all points; paper: slice and loft.")
+    ] = Params.method,
     axis: Annotated[str, Parameter(help='Slicing direction: auto, x, y, z or a vector, "0,0.2,1".')] = "auto",
     per_slice: Annotated[str, Parameter(help="Points per slice; auto is 500 at 10,000 points.")] = "auto",
     central_axis: Annotated[
@@ -69,9 +72,10 @@ def build(
     verbose: Verbose = False,
 ) -> None:
     """Build a CAD model from a cloud of points."""
-    del method  # only one so far
     params = Params(
+        method,
         BodiesParams(parse_bodies(bodies)),
+        ExactParams(),
         DirectionParams(parse_axis(axis)),
         SlicePlanesParams(parse_per_slice(per_slice), central_axis),
         WorkPointsParams(working),
@@ -83,7 +87,7 @@ def build(
     check_outputs(outputs)
     if report is not None:
         check_writable(report)
-    with progress(("read", *STAGES, "write", "report"), quiet=quiet, verbose=verbose) as begin:
+    with progress(("read", *(EXACT_STAGES if method == "exact" else STAGES), "write", "report"), quiet=quiet, verbose=verbose) as begin:
         begin("read")
         points = read_cloud(cloud, unit=unit)
         result = reconstruct(points, params, begin)

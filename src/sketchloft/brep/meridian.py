@@ -1,0 +1,187 @@
+"""Meridian: the profile of coaxial revolved walls as a chain of exactly joined pieces in the half plane."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+
+from sketchloft.cloud import Floats
+from sketchloft.surface import basis_matrix
+from sketchloft.wall.profile import ArcProfile, LineProfile, Profile, SplineProfile
+from sketchloft.wall.revolved import radius_at
+
+__all__ = ["MEET", "Piece", "Straight", "meridian"]
+
+MEET = 1e-6
+"""Difference of radius, as a share of the size, up to which neighbouring walls meet without a ledge."""
+REACH = 10 * MEET
+"""How far from a break, as a share of the size, neighbouring walls may truly cross."""
+
+
+@dataclass(frozen=True)
+class Straight:
+    """A straight profile whose ends say all: along the axis where there is no hole, or a ledge."""
+
+
+@dataclass(frozen=True)
+class Piece:
+    """Part of a profile that passes exactly through its ends.
+
+    Parameters
+    ----------
+    profile : Profile or Straight
+        A line goes straight from start to end, whatever its own numbers are.
+    start, end : (2,) float array
+        Radius and height.
+    """
+
+    profile: Profile | Straight
+    start: Floats
+    end: Floats
+
+    def reversed(self) -> Piece:
+        """The piece walked the other way."""
+        return replace(self, start=self.end, end=self.start)
+
+
+def meridian(profiles: Sequence[Profile | Straight], breaks: Floats, size: float) -> list[Piece]:
+    """Join the profiles of runs one upon another.
+
+    Parameters
+    ----------
+    profiles : sequence of k Profile or Straight
+    breaks : (k + 1,) float array
+    size : float
+        Of the whole solid.
+
+    Returns
+    -------
+    list of Piece
+        Rising. Where one ends at another radius than the next starts there is a ledge; where the radii
+        differ by no more than `MEET` the two share a point: where they cross if that is near, else
+        on the cylinder if one of them is one, else half-way between them.
+
+    Notes
+    -----
+    An arc or a straight wall that comes down to the axis at an outer break, or before it, ends there, and
+    the break moves to that height.
+    """
+    profiles, breaks = _without_idle_breaks(profiles, breaks, size)
+    starts = [_on(profile, z) for profile, z in zip(profiles, breaks[:-1], strict=True)]
+    ends = [_on(profile, z) for profile, z in zip(profiles, breaks[1:], strict=True)]
+    for i, (below, above) in enumerate(pairwise(profiles)):
+        if abs(ends[i][0] - starts[i + 1][0]) <= MEET * size:
+            starts[i + 1] = ends[i] = _joint(below, above, float(breaks[i + 1]), size)
+    middles = (breaks[:-1] + breaks[1:]) / 2
+    for profile, points, z in ((profiles[0], starts, middles[0]), (profiles[-1], ends, middles[-1])):
+        at = 0 if points is starts else -1
+        if points[at][0] <= MEET * size:
+            points[at] = _tip(profile, points[at], float(z))
+    return [
+        Piece(_through(profile, start, end), start, end)
+        for profile, start, end in zip(profiles, starts, ends, strict=True)
+    ]
+
+
+def _without_idle_breaks(
+    profiles: Sequence[Profile | Straight], breaks: Floats, size: float
+) -> tuple[list[Profile | Straight], Floats]:
+    """Take neighbours that are one cylinder, or equal, as one."""
+    kept, heights = [profiles[0]], [float(breaks[0])]
+    for profile, z in zip(profiles[1:], breaks[1:-1].tolist(), strict=True):
+        last = kept[-1]
+        if _is_same(last, profile):
+            continue
+        if isinstance(last, LineProfile) and isinstance(profile, LineProfile):
+            gap = abs(last.radius - profile.radius)
+            if not last.slope and not profile.slope and gap <= MEET * size:
+                kept[-1] = replace(last, radius=(last.radius + profile.radius) / 2)
+                continue
+        kept.append(profile)
+        heights.append(z)
+    return kept, np.array([*heights, breaks[-1]])
+
+
+def _is_same(one: Profile | Straight, other: Profile | Straight) -> bool:
+    if isinstance(one, SplineProfile) and isinstance(other, SplineProfile):
+        return np.array_equal(one.knots, other.knots) and np.array_equal(one.radii, other.radii)
+    return type(one) is type(other) and not isinstance(one, SplineProfile) and one == other
+
+
+def _radius(profile: Profile | Straight, z: float) -> float:
+    if isinstance(profile, Straight):
+        return 0.0
+    return float(radius_at(profile, np.array([z]))[0][0])
+
+
+def _on(profile: Profile | Straight, z: float) -> Floats:
+    return np.array([_radius(profile, z), z])
+
+
+def _joint(below: Profile | Straight, above: Profile | Straight, z: float, size: float) -> Floats:
+    def gap(at: float) -> float:
+        return _radius(below, at) - _radius(above, at)
+
+    low, high = z - REACH * size, z + REACH * size
+    at_low, at_high = gap(low), gap(high)
+    if gap(z) == 0:
+        return _on(below, z)
+    if at_low * at_high < 0:
+        for _ in range(60):
+            middle = (low + high) / 2
+            low, high = (middle, high) if gap(middle) * at_low > 0 else (low, middle)
+        return _on(below, (low + high) / 2)
+    for profile in (below, above):
+        if isinstance(profile, LineProfile) and not profile.slope:
+            return _on(profile, z)
+    return np.array([(_radius(below, z) + _radius(above, z)) / 2, z])
+
+
+def _tip(profile: Profile | Straight, at: Floats, inside: float) -> Floats:
+    """Where the profile reaches the axis, on the side of a point that lies beyond or on it."""
+    match profile:
+        case ArcProfile(height, offset, radius):
+            half = np.sqrt(max(radius**2 - (offset or 0.0) ** 2, 0.0))
+            return np.array([0.0, height + np.copysign(half, at[1] - inside)])
+        case LineProfile(height, radius, slope) if slope:
+            return np.array([0.0, height - radius / slope])
+    return np.array([0.0, at[1]])
+
+
+def _through(profile: Profile | Straight, start: Floats, end: Floats) -> Profile | Straight:
+    """The profile bent by no more than its ends were moved, so that it passes through them."""
+    match profile:
+        case ArcProfile():
+            return _arc_through(profile, start, end)
+        case SplineProfile(knots, radii):
+            p = SplineProfile.degree
+            inner = knots[(knots > start[1] + 1e-9) & (knots < end[1] - 1e-9)]
+            cut = np.concatenate([np.full(p + 1, start[1]), inner, np.full(p + 1, end[1])])
+            sites = np.array([cut[i + 1 : i + p + 1].mean() for i in range(len(cut) - p - 1)])
+            # The part of a spline is one on the cut knots: as many values as poles give it back exactly.
+            back = np.linalg.inv(basis_matrix(cut, p, sites))
+            part: Floats = back @ basis_matrix(knots, p, sites) @ radii
+            part[[0, -1]] = start[0], end[0]
+            return SplineProfile(cut, part)
+    return profile
+
+
+def _arc_through(arc: ArcProfile, start: Floats, end: Floats) -> ArcProfile:
+    centre = np.array([arc.offset or 0.0, arc.height])
+    away = np.linalg.norm([start - centre, end - centre], axis=1) - arc.radius
+    if np.abs(away).max() < 1e-12 * arc.radius:
+        return arc
+    if arc.offset is None:
+        height = (end @ end - start @ start) / (2 * (end[1] - start[1]))
+        return replace(arc, height=float(height), radius=float(np.hypot(start[0], start[1] - height)))
+    chord = (end - start) / np.linalg.norm(end - start)
+    centre = centre - chord * ((centre - (start + end) / 2) @ chord)
+    return replace(
+        arc,
+        offset=float(centre[0]),
+        height=float(centre[1]),
+        radius=float(np.linalg.norm(start - centre)),
+    )

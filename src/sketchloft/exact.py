@@ -1,0 +1,154 @@
+"""Exact: the method that models a body as runs of exact walls, fitted to all its points at once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from sketchloft.cloud import Floats
+from sketchloft.direction import Axis
+from sketchloft.dispersion import dispersion
+from sketchloft.errors import StageError
+from sketchloft.evidence import coaxial, improved
+from sketchloft.exact_fit import sharpened
+from sketchloft.exact_model import ExactModel
+from sketchloft.exact_start import first_stack
+from sketchloft.fit import climb, fit_density
+from sketchloft.frame import Frame, frame_along
+from sketchloft.inside_density import inside_density
+from sketchloft.joins import natural_joins
+from sketchloft.level_set import level_set, on_grid
+from sketchloft.segments import SegmentsParams, segments
+
+if TYPE_CHECKING:
+    from sketchloft.brep.facts import SolidFacts
+    from sketchloft.brep.solid import Solid
+
+__all__ = ["EXACT_STAGES", "ExactBody", "ExactParams", "exact_body"]
+
+EXACT_STAGES = ("input", "bodies", "direction", "runs", "evidence", "fit", "solid")
+START = 0.006
+"""Noise that the search begins with, as a share of the size."""
+AT_LEAST = 0.004
+"""Noise that the evidence is judged with at least: sharper walls would trap the search."""
+ROOM = 1.25
+
+
+@dataclass(frozen=True)
+class ExactParams:
+    """How the exact method searches.
+
+    Parameters
+    ----------
+    segments : SegmentsParams
+    """
+
+    segments: SegmentsParams = field(default_factory=SegmentsParams)
+
+
+@dataclass(frozen=True)
+class ExactBody:
+    """One body of the cloud, with what the exact method found.
+
+    Parameters
+    ----------
+    name : str
+    points : (n, 3) float array
+        In the frame of the slicing direction, about 1 across.
+    vector : (3,) float array
+        The slicing direction.
+    frame : Frame
+        From the axes of the cloud to those of the body.
+    centre : (3,) float array
+        Where the origin of that frame is, in the cloud's coordinates about its centre.
+    scale : float
+        Length of its unit.
+    cuts : (k + 1,) float array
+        Where the moments of the points say that the sections change.
+    first, model : ExactModel
+        Segment by segment, and in the end.
+    solid : Solid
+        Where the cloud is, in its unit.
+    facts : SolidFacts
+        What the checks of the solid found.
+    """
+
+    name: str
+    points: Floats
+    vector: Floats
+    frame: Frame
+    centre: Floats
+    scale: float
+    cuts: Floats
+    first: ExactModel
+    model: ExactModel
+    solid: Solid
+    facts: SolidFacts
+
+
+def exact_body(  # noqa: PLR0913
+    name: str, points: Floats, origin: Floats, axis: Axis, params: ExactParams, progress
+) -> ExactBody:  # type: ignore[no-untyped-def]
+    """Model a body.
+
+    Parameters
+    ----------
+    name : str
+    points : (n, 3) float array
+        About `origin`.
+    origin : (3,) float array
+    axis : "auto" or (3,) tuple of float
+        Slicing direction.
+    params : ExactParams
+    progress : callable
+        Called with the name of each stage when it begins.
+
+    Raises
+    ------
+    StageError
+        If no section is found.
+    ModelError
+        If the solid fails a check.
+    """
+    progress("direction")
+    low, high = np.quantile(points, [0.004, 0.996], axis=0)
+    middle, scale = (low + high) / 2, float(np.linalg.norm(high - low))
+    unit = (points - middle) / scale
+    vector = np.array([0.0, 0.0, 1.0]) if axis == "auto" else np.asarray(axis, dtype=float)
+    frame = frame_along(vector, unit)
+    local = frame.to_local(unit)
+    progress("runs")
+    grid = level_set(local)
+    together = dispersion(local, grid)
+    kept = local[on_grid(grid, local, 2 * grid.blur)]
+    density = inside_density(local, grid, together)
+    cuts = segments(kept, params.segments, together)
+    space = ROOM * float(np.prod(np.ptp(local, axis=0)))
+    first = first_stack(kept, cuts, grid.blur, START, together, density, space)
+    if first is None:
+        raise StageError("found no section that the points fill; draw more of the inside", stage="runs")
+    progress("evidence")
+    model = _settled(local, first)
+    model = natural_joins(replace(model, sigma=max(model.sigma, AT_LEAST)))
+    model = improved(local, model, together)
+    model = coaxial(local, model, together)
+    progress("fit")
+    model, local, turn = sharpened(local, model, tilt=axis == "auto")
+    frame = Frame(turn.T @ frame.axes)
+    progress("solid")
+    from sketchloft.brep.build_stack import built_stack  # noqa: PLC0415  the kernel takes most of a second
+
+    solid, facts = built_stack(model.stack, origin + middle, frame.axes, scale)
+    return ExactBody(
+        name, local, frame.direction, frame, middle, scale, cuts, first, model, solid, facts
+    )
+
+
+def _settled(points: Floats, model: ExactModel) -> ExactModel:
+    model = fit_density(points, model, 2)
+    model, _, _ = climb(points, model, 10)
+    model = fit_density(points, model, 2)
+    model, _, _ = climb(points, model, 5, noise=True)
+    return model

@@ -1,0 +1,177 @@
+"""Fit: all parameters of all runs at once, by likelihood on the raw points."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from sketchloft.cloud import Floats
+from sketchloft.exact_model import Density, ExactModel
+from sketchloft.joins import joined
+from sketchloft.likelihood import Evaluation, evaluate, mass_nodes
+
+__all__ = ["climb", "fit_density", "log_likelihood"]
+
+STRAY_MOST = 0.2
+"""Largest share of strays."""
+STRIDE = 3.0
+"""How far a single parameter may move a wall in one step, in noise deviations."""
+
+
+def log_likelihood(points: Floats, model: ExactModel, *, caps: bool = True) -> float:
+    """Log likelihood of all points (n, 3)."""
+    return evaluate(points, model, caps=caps).value - model.stray * model.space
+
+
+def climb(  # noqa: PLR0913
+    points: Floats,
+    model: ExactModel,
+    steps: int,
+    *,
+    walls: bool = True,
+    tilt: bool = False,
+    noise: bool = False,
+    caps: bool = True,
+    least: float = 1e-5,
+    most: float = np.inf,
+    runs: range | None = None,
+) -> tuple[ExactModel, Floats, Floats]:
+    """Climb the likelihood from a model by damped Newton steps with the scores' outer products.
+
+    Parameters
+    ----------
+    points : (n, 3) float array
+    model : ExactModel
+    steps : int
+        At most this many.
+    walls, tilt, noise : bool
+        Whether walls and breaks, the direction, and sigma move.
+    caps : bool
+        Whether the first and last break are walls; without, they are not moved.
+    runs : range, optional
+        The runs whose walls, and the breaks between them, move; the ends of the stack move with them.
+    least, most : float
+        Smallest and largest sigma.
+
+    Returns
+    -------
+    ExactModel
+    (n, 3) float array
+        The points, turned where the tilt is free.
+    (3, 3) float array
+        The rotation: new points = old points @ rotation.
+    """
+    damping, turn = 1e-3, np.eye(3)
+    model = joined(model)
+    now = evaluate(points, model, caps=caps)
+    for _ in range(steps):
+        free = _free(model, walls=walls, tilt=tilt, noise=noise)
+        if runs is not None:
+            free &= _of_runs(model, runs)
+        if not caps:
+            free[[model.size, -4]] = False
+        moved = None
+        for _ in range(6):
+            step = _step(now, free, damping, model.sigma)
+            candidate, rotation = _moved(model, step, (least, most))
+            turned = points @ rotation
+            then = evaluate(turned, candidate, caps=caps)
+            if then.value > now.value:
+                moved = candidate, turned, rotation, then
+                break
+            damping = max(10 * damping, 1e-3)
+        if moved is None:
+            break
+        gain = moved[3].value - now.value
+        model, points, rotation, now = moved
+        turn, damping = turn @ rotation, damping / 10
+        if gain < 0.02:
+            break
+    return model, points, turn
+
+
+def _free(model: ExactModel, *, walls: bool, tilt: bool, noise: bool) -> np.ndarray:
+    free = np.zeros(model.size + len(model.stack.breaks) + 3, dtype=bool)
+    if walls:
+        free[: model.size] = True
+        free[model.size : -3] = [join == "step" for join in model.joins]
+    free[-3:-1] = tilt
+    free[-1] = noise
+    return free
+
+
+def _of_runs(model: ExactModel, runs: range) -> np.ndarray:
+    """Parameters of some runs' walls that no other run shares, the breaks within, and the last three."""
+    mine = np.zeros(model.size + len(model.stack.breaks) + 3, dtype=bool)
+    mine[-3:] = True
+    others = np.zeros(model.size, dtype=bool)
+    for j, row in enumerate(model.slots):
+        for slot in row:
+            (mine if j in runs else others)[slot] = True
+    mine[: model.size] &= ~others
+    last = len(model.slots)
+    low = runs.start if runs.start == 0 else runs.start + 1
+    high = runs.stop if runs.stop == last else runs.stop - 1
+    mine[model.size + low : model.size + high + 1] = True
+    return mine
+
+
+def _step(now: Evaluation, free: np.ndarray, damping: float, sigma: float) -> Floats:
+    step = np.zeros(len(now.score))
+    index = np.flatnonzero(free)
+    information = now.information[np.ix_(index, index)]
+    diagonal = np.diag(information).copy()
+    floor = 1e-9 * max(float(diagonal.max(initial=0.0)), 1.0) + (0.1 * now.reach[index] / sigma) ** 2
+    information = information + np.diag(damping * diagonal + floor * max(damping, 1e-3))
+    raw = np.linalg.solve(information, now.score[index])
+    limit = STRIDE * sigma / now.reach[index]
+    limit[index == len(free) - 1] = 0.5
+    step[index] = np.clip(raw, -limit, limit)
+    return step
+
+
+def _moved(model: ExactModel, step: Floats, limits: tuple[float, float]) -> tuple[ExactModel, Floats]:
+    walls = model.size
+    breaks = np.maximum.accumulate(model.stack.breaks + step[walls:-3])
+    candidate = model.moved(model.vector + step[:walls], breaks)
+    sigma = float(np.clip(model.sigma * np.exp(step[-1]), *limits))
+    rotation = _rotation(step[-3], step[-2])
+    return joined(replace(candidate, sigma=sigma)), rotation
+
+
+def _rotation(a: float, b: float) -> Floats:
+    """Matrix to multiply points by from the right that turns them by the vector (a, b, 0)."""
+    angle = float(np.hypot(a, b))
+    if angle == 0:
+        return np.eye(3)
+    skew = np.array([[0.0, 0.0, b], [0.0, 0.0, -a], [-b, a, 0.0]])
+    matrix = np.eye(3) + np.sin(angle) / angle * skew + (1 - np.cos(angle)) / angle**2 * skew @ skew
+    return np.asarray(matrix.T, dtype=np.float64)
+
+
+def fit_density(points: Floats, model: ExactModel, rounds: int = 3, *, caps: bool = True) -> ExactModel:
+    """Fit the density inside and that of the strays to the points (n, 3), the walls held still."""
+    at, volumes = mass_nodes(model)
+    count = len(model.density.coefficients)
+    terms, nodes = Density.terms(points, count), Density.terms(at, count)
+    for _ in range(rounds):
+        share = evaluate(points, model, with_mass=False, caps=caps).share
+        coefficients = model.density.coefficients.copy()
+        mass = max(float(np.exp(np.clip(nodes @ coefficients, -50, 50)) @ volumes), 1e-12)
+        coefficients[0] += np.log(max(float(share.sum()), 1.0) / mass)
+        for _ in range(0 if count == 1 else 4):
+            rate = np.exp(np.clip(nodes @ coefficients, -50, 50)) * volumes
+            score = share @ terms - rate @ nodes
+            information = nodes.T @ (rate[:, None] * nodes)
+            coefficients = coefficients + np.linalg.solve(
+                information + 1e-9 * np.trace(information) * np.eye(count), score
+            )
+        stray = float((1 - share).sum())
+        most = STRAY_MOST * len(points)
+        model = replace(
+            model,
+            density=Density(coefficients),
+            stray=float(np.clip(stray, 0.5, most)) / model.space,
+        )
+    return model

@@ -1,0 +1,133 @@
+"""Candidates: outlines of every kind that a contour could be, started from the contour."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from sketchloft.cloud import Floats
+from sketchloft.outline.circle import Circle
+from sketchloft.outline.ellipse import Ellipse
+from sketchloft.outline.outline import Outline
+from sketchloft.outline.pieces import line_arc_pieces
+from sketchloft.outline.placed_polygons import Rectangle, RegularPolygon, RoundedRectangle
+from sketchloft.outline.polygons import LineArc, Polygon
+from sketchloft.outline.rounded_polygon import RoundedPolygon
+from sketchloft.outline.spline_loop import SplineLoop, spline_loop
+from sketchloft.shapes.spline import fit_spline
+
+__all__ = ["chains", "circle_of", "ellipse_of", "polygons", "spline_of"]
+
+CONTOUR_NOISE = 0.3
+"""Standard deviation of the half-density contour in blurs of the density."""
+ROUNDING = 1.5
+"""Blurs beside a corner within which the contour is rounded off."""
+PRICES = (2.5, 5.0, 10.0)
+MOST_CORNERS = 24
+
+
+def circle_of(ring: Floats) -> Circle:
+    """Circle of the contour's area about its centroid."""
+    area, centre = _area_and_centroid(ring)
+    return Circle(centre, float(np.sqrt(area / np.pi)))
+
+
+def ellipse_of(ring: Floats) -> Ellipse:
+    """Ellipse of the contour's second moments and area."""
+    area, centre = _area_and_centroid(ring)
+    sizes, axes = np.linalg.eigh(_second_moments(ring, centre))
+    ratio = float(np.sqrt(sizes[1] / max(float(sizes[0]), 1e-12)))
+    minor = float(np.sqrt(area / np.pi / ratio))
+    return Ellipse(centre, ratio * minor, minor, float(np.arctan2(axes[1, 1], axes[0, 1])))
+
+
+def spline_of(ring: Floats, poles: int) -> SplineLoop:
+    """Closed spline through the contour."""
+    return spline_loop(fit_spline(ring, poles).poles)
+
+
+def chains(ring: Floats, blur: float) -> list[Outline]:
+    """Polygons and chains of lines and arcs, the simplest first.
+
+    Parameters
+    ----------
+    ring : (m, 2) float array
+        Contour, counter-clockwise.
+    blur : float
+        Standard deviation of the blur it was found with.
+    """
+    found: list[Outline] = []
+    seen: set[tuple[bool, ...]] = set()
+    for price in PRICES[::-1]:
+        vertices, bulges = line_arc_pieces(ring, CONTOUR_NOISE * blur, ROUNDING * blur, price)
+        curved = bulges != 0
+        key = tuple(curved.tolist())
+        if len(vertices) < 2 or len(vertices) > MOST_CORNERS or key in seen:
+            continue
+        seen.add(key)
+        if not curved.any() and len(vertices) >= 3:
+            found.append(Polygon(vertices))
+        elif curved.any() and len(vertices) + curved.sum() >= 3:
+            found.append(LineArc(vertices, bulges, curved))
+    return found
+
+
+def polygons(ring: Floats, polygon: Polygon | None, blur: float) -> list[Outline]:
+    """Rectangles, regular and rounded polygons that a contour, cut into a polygon, could be."""
+    found: list[Outline] = []
+    rectangle = _rectangle(ring)
+    found.append(rectangle)
+    lacking = rectangle.width * rectangle.height - _area_and_centroid(ring)[0]
+    radius = float(np.sqrt(max(lacking, 0.0) / (4 - np.pi)))
+    radius = float(np.clip(radius, 0.5 * blur, 0.49 * min(rectangle.width, rectangle.height)))
+    found.append(
+        RoundedRectangle(
+            rectangle.centre, rectangle.width, rectangle.height, rectangle.angle, radius
+        )
+    )
+    if polygon is not None:
+        spokes = polygon.vertices - polygon.vertices.mean(axis=0)
+        lengths = np.linalg.norm(spokes, axis=1)
+        sides = len(lengths)
+        if sides != 4 and lengths.std() < 0.12 * lengths.mean():
+            turned = np.arctan2(spokes[:, 1], spokes[:, 0]) - 2 * np.pi * np.arange(sides) / sides
+            angle = float(np.angle(np.exp(1j * sides * turned).mean()) / sides)
+            found.append(
+                RegularPolygon(polygon.vertices.mean(axis=0), float(lengths.mean()), angle, sides)
+            )
+        if sides != 4:
+            found.append(RoundedPolygon(polygon.vertices, 1.5 * blur))
+    return found
+
+
+def _area_and_centroid(ring: Floats) -> tuple[float, Floats]:
+    middle = ring.mean(axis=0)
+    p = ring - middle
+    q = np.roll(p, -1, axis=0)
+    cross = p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]
+    area = float(cross.sum()) / 2
+    return area, middle + ((p + q) * cross[:, None]).sum(axis=0) / (6 * area)
+
+
+def _second_moments(ring: Floats, centre: Floats) -> Floats:
+    """(2, 2) second moments of the enclosed area."""
+    p = ring - centre
+    q = np.roll(p, -1, axis=0)
+    cross = p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]
+    total = np.einsum("i,ij,ik->jk", cross, p, p) + np.einsum("i,ij,ik->jk", cross, q, q)
+    mixed = np.einsum("i,ij,ik->jk", cross, p, q)
+    return np.asarray((total + (mixed + mixed.T) / 2) / 12)
+
+
+def _rectangle(ring: Floats) -> Rectangle:
+    """Rectangle of least area around the contour, shrunk to the contour's area where it is larger."""
+    angles = np.arange(90) * np.pi / 180
+    turn = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    along = ring @ turn.T
+    across = ring @ np.stack([-turn[:, 1], turn[:, 0]], axis=1).T
+    low, high = (np.stack([f(along, axis=0), f(across, axis=0)]) for f in (np.min, np.max))
+    best = int(np.argmin(np.prod(high - low, axis=0)))
+    middle = (low[:, best] + high[:, best]) / 2
+    c, s = turn[best]
+    centre = np.array([c * middle[0] - s * middle[1], s * middle[0] + c * middle[1]])
+    width, height = (high - low)[:, best].tolist()
+    return Rectangle(centre, width, height, float(angles[best]))

@@ -1,0 +1,123 @@
+"""Foot of points on a chain of lines and arcs: distance, normal, curvature and gradient."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sketchloft.cloud import Floats, Ints
+from sketchloft.outline.chain import edge_normal, edge_place
+from sketchloft.outline.chain_nearest import Edges, edge_frames, nearest
+
+__all__ = ["chain_foot"]
+
+
+def chain_foot(points: Floats, vertices: Floats, bulges: Floats) -> tuple[Floats, Floats, Floats, Floats]:
+    """What points see of a chain.
+
+    Parameters
+    ----------
+    points : (n, 2) float array
+    vertices : (m, 2) float array
+        Counter-clockwise, m at least 2.
+    bulges : (m,) float array
+        Tangent of a quarter of the sweep of the edge from vertex k to k + 1, positive outwards.
+
+    Returns
+    -------
+    distance : (n,) float array
+        Signed, positive outside.
+    normal : (n, 2) float array
+        Unit gradient of the distance.
+    gradient : (n, 3m) float array
+        Derivative of the distance by [vertices ravelled, bulges].
+    curvature : (n,) float array
+        Of the edge at the foot, positive where it bulges outwards.
+
+    Notes
+    -----
+    In the frame of its chord, an edge of curvature c is where
+    f = c (x**2 + y**2 - L**2 / 4) + 2 y cos(sweep / 2) vanishes, and the signed distance from it is
+    f / (1 + sqrt(1 + c f)), which is y for a line.
+    """
+    origin = vertices.mean(axis=0)  # about which differences lose nothing
+    edges = edge_frames(vertices - origin, bulges)
+    local = points - origin
+    near = nearest(local, edges)
+    distance, normal, curvature, tau = _edge_foot(local, edges, near.edge)
+    m = len(vertices)
+    gradient = np.zeros((len(points), 3 * m))
+    rows = np.flatnonzero(near.on_edge)
+    edge = near.edge[rows]
+    by_start, by_end, by_bulge = _edge_gradient(edges, edge, normal[rows], tau[rows])
+    _put(gradient, rows, edge, by_start)
+    _put(gradient, rows, (edge + 1) % m, by_end)
+    gradient[rows, 2 * m + edge] = by_bulge
+    rows = np.flatnonzero(~near.on_edge)
+    if len(rows):
+        vertex = near.vertex[rows]
+        distance[rows], normal[rows] = _vertex_foot(local[rows], edges, vertex)
+        curvature[rows] = 0.0
+        _put(gradient, rows, vertex, -normal[rows])
+    return distance, normal, gradient, curvature
+
+
+def _put(gradient: Floats, rows: Ints, vertex: Ints, values: Floats) -> None:
+    """Set the derivative of some rows by their vertices (n,)."""
+    gradient[rows, 2 * vertex], gradient[rows, 2 * vertex + 1] = values.T
+
+
+def _edge_foot(points: Floats, edges: Edges, edge: Ints) -> tuple[Floats, Floats, Floats, Floats]:
+    """Distance, normal, curvature and parameter tau of points on the edges (n,) that they are nearest to."""
+    unit, across = edges.unit[edge], edges.across[edge]
+    curvature, cosine, length = edges.curvature[edge], edges.cosine[edge], edges.length[edge]
+    gap = points - edges.middle[edge]
+    x, y = np.einsum("ij,ij->i", gap, unit), np.einsum("ij,ij->i", gap, across)
+    f = curvature * (x * x + y * y - length**2 / 4) + 2 * y * cosine
+    root = np.sqrt(np.maximum(1 + curvature * f, 0.0))
+    tau = 4 * x / (edges.reach[edge] * np.maximum(root + curvature * y + cosine, 1e-300))
+    tau = np.clip(tau, -1.0, 1.0)
+    with_chord, aside = edge_normal(tau, edges.bulge[edge])
+    normal = with_chord[:, None] * unit + aside[:, None] * across
+    return f / (1 + root), normal, curvature, tau
+
+
+def _edge_gradient(edges: Edges, edge: Ints, normal: Floats, tau: Floats) -> tuple[Floats, Floats, Floats]:
+    """Minus the normal times the movement of points at tau: by start, end (n, 2) and bulge (n,)."""
+    bulge = edges.bulge[edge]
+    xi, eta = edge_place(tau, bulge)
+    turned = eta[:, None] * np.column_stack([-normal[:, 1], normal[:, 0]])
+    by_start = turned - (0.5 - xi)[:, None] * normal
+    by_end = -turned - (0.5 + xi)[:, None] * normal
+    square = np.square(bulge * tau)
+    rate = (1 - tau * tau) / (1 + square) ** 2
+    lengthwise = np.einsum("ij,ij->i", normal, edges.unit[edge])
+    sideways = np.einsum("ij,ij->i", normal, edges.across[edge])
+    by_bulge = tau * bulge * lengthwise + (1 - square) / 2 * sideways
+    return by_start, by_end, -rate * edges.length[edge] * by_bulge
+
+
+def _vertex_foot(points: Floats, edges: Edges, vertex: Ints) -> tuple[Floats, Floats]:
+    """Signed distance and normal of points nearest to vertices (n,): outside on the normals' side."""
+    lean, aside = edge_normal(np.ones(len(edges.bulge)), edges.bulge)
+    at_start = aside[:, None] * edges.across - lean[:, None] * edges.unit
+    at_end = aside[:, None] * edges.across + lean[:, None] * edges.unit
+    before, after = _neighbours(edges.exists)
+    side = at_end[before[vertex]] + at_start[after[vertex]]
+    side /= np.maximum(np.hypot(side[:, 0], side[:, 1]), 1e-300)[:, None]
+    gap = points - edges.start[vertex]
+    far = np.hypot(gap[:, 0], gap[:, 1])
+    # Beyond a cusp, where the normals cancel, is outside.
+    sign = np.where(np.einsum("ij,ij->i", gap, side) < -1e-12 * far, -1.0, 1.0)
+    normal = np.where(far[:, None] > 0, gap * (sign / np.maximum(far, 1e-300))[:, None], side)
+    return sign * far, normal
+
+
+def _neighbours(exists: NDArray[np.bool_]) -> tuple[Ints, Ints]:
+    """Last edge before each vertex, and first one after it, that have a length."""
+    m = len(exists)
+    at = np.arange(2 * m)
+    twice = np.tile(exists, 2)
+    last = np.maximum.accumulate(np.where(twice, at, -1))
+    first = np.minimum.accumulate(np.where(twice, at, 2 * m)[::-1])[::-1]
+    return last[m - 1 : 2 * m - 1] % m, first[:m] % m

@@ -1,0 +1,42 @@
+"""ChainOutline: what the outlines of lines and arcs have in common."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+
+from sketchloft.cloud import Floats
+from sketchloft.outline.chain import chain_area, chain_boundary, chain_edges
+from sketchloft.outline.chain_foot import chain_foot
+from sketchloft.outline.outline import Boundary, Edge, Foot
+
+__all__ = ["ChainOutline"]
+
+
+class ChainOutline(ABC):
+    """An outline whose parameters say where the vertices of a chain are, and how its edges bulge."""
+
+    @abstractmethod
+    def chain(self) -> tuple[Floats, Floats]:
+        """Return vertices (m, 2), counter-clockwise, and bulges (m,)."""
+
+    @abstractmethod
+    def by_vector(self, gradient: Floats) -> Floats:
+        """Turn a derivative (n, 3m) by the chain into one (n, p) by the parameters: the chain rule."""
+
+    @property
+    def area(self) -> float:
+        """Enclosed area."""
+        return abs(chain_area(*self.chain()))
+
+    def foot(self, points: Floats) -> Foot:
+        """Signed distance of points (n, 2), and its derivatives."""
+        distance, normal, gradient, curvature = chain_foot(points, *self.chain())
+        return Foot(distance, normal, self.by_vector(gradient), curvature)
+
+    def boundary(self, count: int) -> Boundary:
+        """About `count` points along it, to integrate with, 2 or more on each edge."""
+        return chain_boundary(*self.chain(), count)
+
+    def edges(self) -> tuple[Edge, ...]:
+        """Its lines and arcs, counter-clockwise."""
+        return chain_edges(*self.chain())

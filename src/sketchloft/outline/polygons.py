@@ -1,0 +1,88 @@
+"""Polygons: outlines of which every vertex is free, with straight edges or arcs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import ClassVar, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sketchloft.cloud import Floats
+from sketchloft.outline.chain_outline import ChainOutline
+
+__all__ = ["LineArc", "Polygon"]
+
+
+@dataclass(frozen=True)
+class Polygon(ChainOutline):
+    """A simple polygon.
+
+    Parameters
+    ----------
+    vertices : (m, 2) float array
+        Counter-clockwise.
+    """
+
+    kind: ClassVar[str] = "polygon"
+
+    vertices: Floats
+
+    @property
+    def vector(self) -> Floats:
+        """Vertices: (2m,)."""
+        return self.vertices.ravel().copy()
+
+    def moved(self, vector: Floats) -> Self:
+        """Return the polygon with other vertices."""
+        return replace(self, vertices=vector.reshape(-1, 2).copy())
+
+    def chain(self) -> tuple[Floats, Floats]:
+        """Vertices, and bulges of 0."""
+        return self.vertices, np.zeros(len(self.vertices))
+
+    def by_vector(self, gradient: Floats) -> Floats:
+        """Leave out the bulges."""
+        return gradient[:, : 2 * len(self.vertices)]
+
+
+@dataclass(frozen=True)
+class LineArc(ChainOutline):
+    """A closed chain of lines and arcs.
+
+    Parameters
+    ----------
+    vertices : (m, 2) float array
+        Counter-clockwise, m at least 2.
+    bulges : (m,) float array
+        Tangent of a quarter of the sweep of the edge from vertex k to k + 1, positive outwards, 0 for a line.
+    curved : (m,) bool array
+        Edges whose bulge is a parameter.
+    """
+
+    kind: ClassVar[str] = "line-arc"
+
+    vertices: Floats
+    bulges: Floats
+    curved: NDArray[np.bool_]
+
+    @property
+    def vector(self) -> Floats:
+        """Vertices, then the bulges of the curved edges."""
+        return np.r_[self.vertices.ravel(), self.bulges[self.curved]]
+
+    def moved(self, vector: Floats) -> Self:
+        """Return the chain with other vertices and bulges."""
+        at = self.vertices.size
+        bulges = self.bulges.copy()
+        bulges[self.curved] = vector[at:]
+        return replace(self, vertices=vector[:at].reshape(-1, 2).copy(), bulges=bulges)
+
+    def chain(self) -> tuple[Floats, Floats]:
+        """Vertices and bulges."""
+        return self.vertices, self.bulges
+
+    def by_vector(self, gradient: Floats) -> Floats:
+        """Leave out the bulges that are fixed."""
+        by_vertices, by_bulges = np.split(gradient, [self.vertices.size], axis=1)
+        return np.concatenate([by_vertices, by_bulges[:, self.curved]], axis=1)

@@ -1,0 +1,168 @@
+"""Recognise section: the outline of every loop of a segment's section, chosen by evidence."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from sketchloft.cloud import Floats
+from sketchloft.exact_model import Density, ExactModel, model_of
+from sketchloft.fit import climb, fit_density, log_likelihood
+from sketchloft.outline.candidates import chains, circle_of, ellipse_of, polygons, spline_of
+from sketchloft.outline.circle import Circle
+from sketchloft.outline.outline import Outline
+from sketchloft.outline.polygons import Polygon
+from sketchloft.section_contours import contours
+from sketchloft.shapes.spline import resampled
+from sketchloft.stack import Run, Stack
+from sketchloft.wall.swept import Swept
+
+__all__ = ["SectionShape", "recognise_section"]
+
+MOST_POINTS = 3000
+BESIDE = 4.0
+"""Blurs beside a contour within which points tell where the outline is."""
+CROWDED = 2.0
+"""An outline that leaves the points so many times denser than its contour did has lost them."""
+LATTICE = 40
+POLES = (8, 12, 20)
+
+
+@dataclass(frozen=True)
+class SectionShape:
+    """The outlines that bound a section.
+
+    Parameters
+    ----------
+    outlines : tuple of Outline
+        Those of pieces, then those of holes.
+    holes : int
+    sigma : float
+        How sharp the walls look once the points are moved to one section.
+    """
+
+    outlines: tuple[Outline, ...]
+    holes: int
+    sigma: float
+
+
+def recognise_section(points: Floats, together: float) -> SectionShape | None:
+    """Find the outlines of a section filled by points (n, 2); None where there is no section.
+
+    Parameters
+    ----------
+    points : (n, 2) float array
+    together : float
+        How many of the points go together; evidence counts that much less.
+    """
+    outer, holes, blur = contours(points, together)
+    if not outer:
+        return None
+    found = [
+        _best(points, ring, blur, together, hole=i >= len(outer)) for i, ring in enumerate([*outer, *holes])
+    ]
+    return SectionShape(
+        tuple(outline for outline, _ in found), len(holes), float(np.median([sigma for _, sigma in found]))
+    )
+
+
+def _best(
+    points: Floats, ring: Floats, blur: float, together: float, *, hole: bool
+) -> tuple[Outline, float]:
+    """Find the best outline for one loop, and how sharp it looks, from the points beside it."""
+    near, core, area = _beside(points, ring, BESIDE * blur, hole=hole)
+    tried: list[tuple[float, Outline, float]] = []
+
+    def attempt(outline: Outline) -> float:
+        model, value = _fitted(near, _model(near, core, area, outline, 0.5 * blur, hole=hole), together)
+        wall = model.stack.runs[0].walls[0]
+        if isinstance(wall, Swept):
+            tried.append((value, wall.outline, model.sigma))
+        return value
+
+    free = attempt(spline_of(ring, POLES[0]))
+    circle = attempt(circle_of(ring))
+    ellipse = attempt(ellipse_of(ring))
+    if circle > max(free, ellipse):
+        return tried[1][1:]
+    cut = chains(ring, blur)
+    for outline in cut:
+        attempt(outline)
+    polygon = next((outline for outline in cut if isinstance(outline, Polygon)), None)
+    for outline in polygons(ring, polygon, blur):
+        attempt(outline)
+    outline = max(tried, key=lambda found: found[0])[1]
+    while isinstance(outline, Polygon) and len(outline.vertices) > 3:
+        before = len(tried)
+        attempt(_simpler(outline))
+        if tried[-1][0] < max(tried[:before], key=lambda found: found[0])[0]:
+            break
+        outline = tried[-1][1]
+    for poles in POLES[1:]:
+        if max(tried, key=lambda found: found[0])[0] > free:
+            break
+        free = attempt(spline_of(ring, poles))
+    return max(tried, key=lambda found: found[0])[1:]
+
+
+def _simpler(polygon: Polygon) -> Polygon:
+    """Drop the corner whose triangle with its neighbours is smallest."""
+    v = polygon.vertices
+    before, after = np.roll(v, 1, axis=0) - v, np.roll(v, -1, axis=0) - v
+    return Polygon(np.delete(v, int(np.argmin(np.abs(np.cross(before, after)))), axis=0))
+
+
+def _beside(
+    points: Floats, ring: Floats, width: float, *, hole: bool
+) -> tuple[Floats, Floats, float]:
+    """Points within a width of a ring, thinned to `MOST_POINTS`; the area inside left out; that taken."""
+    from scipy.spatial import cKDTree  # noqa: PLC0415
+    from shapely import Polygon as Region, contains_xy  # noqa: PLC0415
+
+    length = float(np.linalg.norm(np.roll(ring, -1, axis=0) - ring, axis=1).sum())
+    dense = resampled(ring, int(np.ceil(4 * length / width)))
+    away, _ = cKDTree(dense).query(points, distance_upper_bound=width)
+    near = points[np.isfinite(away)]
+    region = Region(dense)
+    sign = -1 if hole else 1
+    rest = region.buffer(sign * -width)
+    low, high = dense.min(axis=0) - width, dense.max(axis=0) + width
+    cells = np.stack(np.meshgrid(*[np.linspace(a, b, LATTICE) for a, b in zip(low, high, strict=True)]), -1)
+    places = cells.reshape(-1, 2)
+    places = places[contains_xy(rest, places)]
+    share = np.full(len(places), sign * float(rest.area) / max(len(places), 1))
+    core = np.column_stack([places, np.zeros(len(places)), share])
+    return near[:: len(near) // MOST_POINTS + 1], core, sign * float(region.area - rest.area)
+
+
+def _model(
+    near: Floats, core: Floats, area: float, outline: Outline, sigma: float, *, hole: bool
+) -> ExactModel:
+    wall = Swept(outline, 0.0, np.zeros(2), np.zeros(2))
+    space = float(np.prod(np.ptp(near, axis=0)))
+    return replace(
+        model_of(
+            Stack(np.array([-0.5, 0.5]), (Run((wall,), int(hole)),)),
+            sigma,
+            Density(np.array([np.log(len(near) / area), 0.0, 0.0, 0.0])),
+            1.0 / space,
+            space,
+        ),
+        core=core,
+    )
+
+
+def _fitted(points: Floats, model: ExactModel, together: float) -> tuple[ExactModel, float]:
+    """Fit, and the evidence: log likelihood less half the log of the points per parameter."""
+    at = np.column_stack([points, np.zeros(len(points))])
+    start = model.density.coefficients[0]
+    model, at, _ = climb(at, model, 5, caps=False)
+    model = fit_density(at, model, 1, caps=False)
+    model, at, _ = climb(at, model, 8, noise=True, caps=False, most=model.sigma)
+    model = fit_density(at, model, 1, caps=False)
+    crowded = model.density.coefficients[0] - start > np.log(CROWDED)
+    if crowded:  # it gave up most of the points
+        return model, -np.inf
+    value = log_likelihood(at, model, caps=False) / together
+    return model, value - 0.5 * model.size * float(np.log(len(points) / together))

@@ -1,0 +1,155 @@
+"""Segment walls: the walls of one segment, chosen by evidence among all families, its ends held still."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from sketchloft.cloud import Floats
+from sketchloft.exact_model import Density, ExactModel, model_of
+from sketchloft.fit import climb, fit_density, log_likelihood
+from sketchloft.outline.circle import Circle
+from sketchloft.outline.outline import Outline
+from sketchloft.recognise_section import SectionShape, recognise_section
+from sketchloft.section_contours import Plan, plan_of
+from sketchloft.stack import Run, Stack, Wall
+from sketchloft.surface import basis_matrix
+from sketchloft.wall.profile import ArcProfile, LineProfile, SplineProfile
+from sketchloft.wall.revolved import Revolved
+from sketchloft.wall.swept import Freedom, Swept
+
+__all__ = ["evidence_price", "segment_run", "spline_knots"]
+
+MOST_POINTS = 3000
+
+
+def evidence_price(parameters: int, count: int, together: float) -> float:
+    """Log likelihood that so many parameters must gain on a number of points (Schwarz's criterion)."""
+    return 0.5 * parameters * float(np.log(max(count / together, 3.0)))
+
+
+def segment_run(
+    points: Floats, ends: tuple[float, float], sigma: float, together: float, density: Density
+) -> tuple[Run, float] | None:
+    """Find the walls of a segment.
+
+    Parameters
+    ----------
+    points : (n, 3) float array
+        Between the ends, strays left out.
+    ends : (low, high)
+        Heights.
+    sigma : float
+        Noise to judge with.
+    together : float
+        How many of the points go together.
+    density : Density
+        Inside, about.
+
+    Returns
+    -------
+    Run
+        None where the points have no section.
+    float
+        Its noise.
+    """
+    plan = plan_of(points, together)
+    shape = recognise_section(plan.points, together)
+    if shape is None:
+        return None
+    if len(points) > MOST_POINTS:
+        points = points[:: len(points) // MOST_POINTS + 1]
+    best: tuple[float, ExactModel] | None = None
+    for run in _runs(plan, shape, ends):
+        model = _fitted(points, run, ends, sigma, density)
+        value = log_likelihood(points, model, caps=False) / together - evidence_price(
+            model.size, len(points), together
+        )
+        if best is None or value > best[0]:
+            best = value, model
+    if best is None:
+        return None
+    return best[1].stack.runs[0], best[1].sigma
+
+
+def spline_knots(low: float, high: float, spans: int, margin: float) -> Floats:
+    """Clamped cubic knots, evenly spaced over a stretch of heights and a margin around it."""
+    inner = np.linspace(low - margin, high + margin, spans + 1)
+    return np.r_[np.repeat(inner[0], 3), inner, np.repeat(inner[-1], 3)]
+
+
+def _fitted(
+    points: Floats, run: Run, ends: tuple[float, float], sigma: float, density: Density
+) -> ExactModel:
+    breaks = np.array(ends)
+    space = 1.25 * float(np.prod(np.ptp(points, axis=0)))
+    model = model_of(Stack(breaks, (run,)), 2 * sigma, density, 1.0 / space, space)
+    for at in (2 * sigma, sigma):
+        model = fit_density(points, replace(model, sigma=at), 1, caps=False)
+        model, points, _ = climb(points, model, 5, caps=False)
+    return fit_density(points, model, 2, caps=False)
+
+
+def _runs(plan: Plan, shape: SectionShape, ends: tuple[float, float]) -> list[Run]:
+    """Ways in which the section may go along the segment, the simplest first."""
+    changing = bool(np.any(plan.growth[1:]))
+    options = [_walls(plan, outline, ends, changing=changing) for outline in shape.outlines]
+    count = max(len(option) for option in options)
+    return [
+        Run(tuple(option[min(k, len(option) - 1)] for option in options), shape.holes)
+        for k in range(count)
+    ]
+
+
+def _walls(plan: Plan, outline: Outline, ends: tuple[float, float], *, changing: bool) -> list[Wall]:
+    slanted = bool(np.any(plan.drift))
+    _, first, _ = plan.growth
+    if isinstance(outline, Circle) and not slanted:
+        return _revolved(plan, outline, ends, changing=changing)
+
+    def swept(*free: Freedom, taper: float = 0.0) -> Swept:
+        drift = plan.drift if "drift" in free else np.zeros(2)
+        return Swept(outline, plan.height, plan.centre, drift, taper, 0.0, free)
+
+    walls: list[Wall] = [swept()]
+    if slanted:
+        walls.append(swept("drift"))
+    if changing:
+        walls.append(swept("taper", taper=first / 2))
+    if slanted and changing:
+        walls.append(swept("drift", "taper", taper=first / 2))
+    return walls
+
+
+def _revolved(plan: Plan, circle: Circle, ends: tuple[float, float], *, changing: bool) -> list[Wall]:
+    _, first, second = plan.growth
+    height, radius = plan.height, circle.radius
+    profiles: list[LineProfile | ArcProfile | SplineProfile] = [LineProfile(height, radius, None)]
+    if changing:
+        profiles.append(LineProfile(height, radius, radius * first / 2))
+        if second < 0:
+            shrink = radius**2 * first / 2
+            profiles.append(ArcProfile(height + shrink, None, float(np.hypot(radius, shrink))))
+        z = np.linspace(*ends, 24)
+        r = radius * np.sqrt(np.maximum(1 + first * (z - height) + second * (z - height) ** 2, 0.01))
+        profiles.extend(_tori(z, r))
+        knots = spline_knots(*ends, 3, 0.1 * (ends[1] - ends[0]))
+        basis = basis_matrix(knots, 3, z)
+        profiles.append(SplineProfile(knots, np.linalg.lstsq(basis, r, rcond=None)[0]))
+    return [Revolved(circle.centre, profile) for profile in profiles]
+
+
+def _tori(z: Floats, r: Floats) -> list[ArcProfile]:
+    """Arc through the profile, its centre off the axis."""
+    rows = np.column_stack([r, z, np.ones(len(z))])
+    solution = np.linalg.lstsq(rows, r**2 + z**2, rcond=None)[0]
+    offset, height = float(solution[0]) / 2, float(solution[1]) / 2
+    radius = float(np.sqrt(max(solution[2] + offset**2 + height**2, 1e-12)))
+    reach = float(np.abs(z - height).max())
+    if radius > 20 * np.ptp(z) or radius < reach:
+        return []
+    side = 1 if float(r.mean()) > offset else -1
+    if side < 0 and offset - radius <= 0:
+        return []
+    return [ArcProfile(height, offset, radius, side)]

@@ -1,0 +1,98 @@
+"""Simpler walls: what a wall could be instead, with fewer parameters or of a likelier kind."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from sketchloft.cloud import Floats
+from sketchloft.outline.candidates import circle_of, ellipse_of, polygons
+from sketchloft.outline.circle import Circle
+from sketchloft.outline.ellipse import Ellipse
+from sketchloft.outline.outline import Outline
+from sketchloft.outline.placed_polygons import Rectangle, RoundedRectangle
+from sketchloft.outline.polygons import LineArc, Polygon
+from sketchloft.outline.rounded_polygon import RoundedPolygon
+from sketchloft.stack import Wall
+from sketchloft.wall.profile import ArcProfile, LineProfile, Profile, SplineProfile
+from sketchloft.wall.revolved import Revolved, radius_at
+from sketchloft.wall.swept import Swept
+
+__all__ = ["profiles_like", "walls_like"]
+
+
+def walls_like(wall: Wall, low: float, high: float) -> Iterator[Wall]:
+    """Walls that could stand in for one between two heights."""
+    if isinstance(wall, Revolved):
+        z = np.linspace(low, high, 25)
+        r = radius_at(wall.profile, z)[0]
+        for profile in profiles_like(z, r):
+            if type(profile) is not type(wall.profile) or _form(profile) != _form(wall.profile):
+                yield replace(wall, profile=profile)
+    elif isinstance(wall, Swept):
+        for name in wall.free:
+            still: Floats | float = np.zeros(2) if name == "drift" else 0.0
+            free = tuple(other for other in wall.free if other != name)
+            yield replace(wall, free=free, **{name: still})  # type: ignore[arg-type]
+        for outline in _outlines_like(wall.outline):
+            yield replace(wall, outline=outline)
+        if isinstance(wall.outline, Circle) and "drift" not in wall.free:
+            slope = wall.outline.radius * wall.taper
+            yield Revolved(
+                wall.outline.centre, LineProfile(wall.height, wall.outline.radius, slope or None)
+            )
+
+
+def profiles_like(z: Floats, r: Floats) -> Iterator[Profile]:
+    """Cylinder, cone and sphere nearest to a profile given by radii (m,) at heights (m,)."""
+    middle = float(z.mean())
+    yield LineProfile(middle, float(np.sqrt((r**2).mean())), None)
+    slope, radius = np.polyfit(z - middle, r, 1)
+    yield LineProfile(middle, float(radius), float(slope))
+    first, constant = np.polyfit(z, r**2 + z**2, 1)
+    square = float(constant + first**2 / 4)
+    if square > 0:
+        yield ArcProfile(float(first) / 2, None, float(np.sqrt(square)))
+
+
+def _form(profile: Profile) -> tuple[bool, bool]:
+    straight = isinstance(profile, LineProfile) and profile.slope is None
+    return straight, isinstance(profile, ArcProfile) and profile.offset is None
+
+
+def _outlines_like(outline: Outline) -> Iterator[Outline]:
+    ring = outline.boundary(96).points
+    if not isinstance(outline, Circle):
+        yield circle_of(ring)
+    if not isinstance(outline, (Circle, Ellipse)):
+        yield ellipse_of(ring)
+    if isinstance(outline, Polygon) and len(outline.vertices) > 3:
+        for k in _flattest(outline.vertices):
+            yield Polygon(np.delete(outline.vertices, k, axis=0))
+    if isinstance(outline, LineArc):
+        if len(outline.vertices) > 2:
+            for k in _flattest(outline.vertices):
+                curved = np.delete(outline.curved, k)
+                bulges = np.delete(outline.bulges, k)
+                if curved.any():
+                    yield LineArc(np.delete(outline.vertices, k, axis=0), bulges, curved)
+        if len(outline.vertices) > 2:
+            yield Polygon(outline.vertices)
+    polygon = outline if isinstance(outline, Polygon) else None
+    if isinstance(outline, RoundedPolygon):
+        polygon = Polygon(outline.vertices)
+        yield polygon
+    if isinstance(outline, RoundedRectangle):
+        yield Rectangle(outline.centre, outline.width, outline.height, outline.angle)
+    if not isinstance(outline, (Rectangle, Circle, Ellipse)):
+        for other in polygons(ring, polygon, float(np.sqrt(outline.area)) * 0.05):
+            if type(other) is not type(outline):
+                yield other
+
+
+def _flattest(vertices: Floats) -> list[int]:
+    """The corners whose triangles with their neighbours are smallest, three at most."""
+    before, after = np.roll(vertices, 1, axis=0) - vertices, np.roll(vertices, -1, axis=0) - vertices
+    return [int(k) for k in np.argsort(np.abs(np.cross(before, after)))[:3]]

@@ -1,0 +1,50 @@
+"""Stack: a solid as runs of walls along the slicing direction, each between two breaks."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from sketchloft.cloud import Floats
+from sketchloft.wall.lofted import Lofted
+from sketchloft.wall.revolved import Revolved
+from sketchloft.wall.swept import Swept
+
+__all__ = ["Run", "Stack", "Wall"]
+
+Wall = Revolved | Swept | Lofted
+
+
+@dataclass(frozen=True)
+class Run:
+    """What lies between two breaks: a section of one or several pieces, some with holes.
+
+    Parameters
+    ----------
+    walls : tuple of Wall
+        Outer walls, apart from each other, then the walls of holes.
+    holes : int
+        How many of the walls, at the end, bound holes.
+    """
+
+    walls: tuple[Wall, ...]
+    holes: int = 0
+
+    def sign(self, index: int) -> int:
+        """1 for an outer wall, -1 for the wall of a hole."""
+        return -1 if index >= len(self.walls) - self.holes else 1
+
+
+@dataclass(frozen=True)
+class Stack:
+    """Runs one upon another in the frame of the slicing direction.
+
+    Parameters
+    ----------
+    breaks : (k + 1,) float array
+        Rising heights; run i lies between breaks i and i + 1. Where two walls meet in a kink the break is
+        where they cross; where they do not meet there is a step, a planar ledge.
+    runs : tuple of k Run
+    """
+
+    breaks: Floats
+    runs: tuple[Run, ...]

@@ -1,0 +1,1 @@
+"""Walls: the surfaces that bound a run between two heights, one family a file."""

@@ -1,0 +1,49 @@
+"""What points see of a wall, and points spread over it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from sketchloft.cloud import Floats
+
+__all__ = ["WallBoundary", "WallFoot"]
+
+
+@dataclass(frozen=True)
+class WallFoot:
+    """Signed distance of points from a wall, first order exact near it.
+
+    Parameters
+    ----------
+    distance : (n,) float array
+        Positive outside of what the wall encloses.
+    normal : (n, 3) float array
+        Unit gradient of the distance.
+    gradient : (n, p) float array
+        Derivative of the distance by the wall's parameters.
+    curvature : (n,) float array
+        Sum of the principal curvatures, positive where the wall is convex.
+    """
+
+    distance: Floats
+    normal: Floats
+    gradient: Floats
+    curvature: Floats
+
+
+@dataclass(frozen=True)
+class WallBoundary:
+    """Points over a wall between two heights, to integrate with.
+
+    Parameters
+    ----------
+    points : (m, 3) float array
+    normals : (m, 3) float array
+        Outward unit normals.
+    areas : (m,) float array
+        Area that each point stands for.
+    """
+
+    points: Floats
+    normals: Floats
+    areas: Floats

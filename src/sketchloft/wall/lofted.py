@@ -1,0 +1,164 @@
+"""Lofted: a free wall, a tensor spline whose closed sections change along the axis."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import ClassVar, Self
+
+import numpy as np
+
+from sketchloft.cloud import Floats, Ints
+from sketchloft.surface import basis_matrix
+from sketchloft.wall.foot import WallBoundary, WallFoot
+
+__all__ = ["Lofted", "lofted"]
+
+PER_POLE = 6
+"""Samples of a section per pole, from which the foot of a point is searched."""
+NEWTON = 3
+
+
+@dataclass(frozen=True)
+class Lofted:
+    """A wall x, y = f(u, z), periodic cubic in u, clamped cubic in z.
+
+    Parameters
+    ----------
+    poles : (nv, nu, 2) float array
+    knots : (nv + 4,) float array
+        Clamped knots, in heights.
+    base, normals : (nv, nu, 2) float array
+        Each pole moves from its base along its unit normal, so that none slides along the wall.
+    """
+
+    kind: ClassVar[str] = "loft"
+    degree: ClassVar[int] = 3
+
+    poles: Floats
+    knots: Floats
+    base: Floats = field(repr=False)
+    normals: Floats = field(repr=False)
+
+    @property
+    def vector(self) -> Floats:
+        """Displacement of each pole, row by row."""
+        return np.einsum("ijk,ijk->ij", self.poles - self.base, self.normals).ravel()
+
+    def moved(self, vector: Floats) -> Self:
+        """Return the wall with other displacements."""
+        shift = vector.reshape(self.base.shape[:2])
+        return replace(self, poles=self.base + shift[..., None] * self.normals)
+
+    def ring(self, heights: Floats, u: Floats, u_derivative: int = 0, z_derivative: int = 0) -> Floats:
+        """Points (m, k, 2) at heights (m,) and parameters u (k,), or their derivatives."""
+        along = basis_matrix(self.knots, self.degree, heights, z_derivative)
+        around = _periodic(u, self.poles.shape[1], u_derivative)
+        return np.einsum("mi,kj,ijd->mkd", along, around, self.poles)
+
+    def area(self, heights: Floats) -> Floats:
+        """Area of the sections at heights (m,)."""
+        k = 8 * self.poles.shape[1]
+        u = np.arange(k) / k
+        at, along = self.ring(heights, u), self.ring(heights, u, 1)
+        return (at[..., 0] * along[..., 1] - at[..., 1] * along[..., 0]).mean(axis=1) / 2
+
+    def foot(self, points: Floats) -> WallFoot:
+        """Signed distance of points (n, 3), and its derivatives."""
+        z = np.clip(points[:, 2], self.knots[0], self.knots[-1])
+        along = basis_matrix(self.knots, self.degree, z)
+        u = self._nearest(points[:, :2], z)
+        count = self.poles.shape[1]
+        rows = np.einsum("ni,ijd->njd", along, self.poles)
+        for _ in range(NEWTON):
+            at, d1, d2 = (_ring_at(rows, u, count, k) for k in range(3))
+            gap = at - points[:, :2]
+            first = np.einsum("ij,ij->i", gap, d1)
+            second = np.einsum("ij,ij->i", d1, d1)
+            full = second + np.einsum("ij,ij->i", gap, d2)
+            u = u - np.clip(first / np.where(full > 0.2 * second, full, second), -0.5 / count, 0.5 / count)
+        at, d1, d2 = (_ring_at(rows, u, count, k) for k in range(3))
+        speed = np.maximum(np.hypot(d1[:, 0], d1[:, 1]), 1e-12)
+        across = np.column_stack([d1[:, 1], -d1[:, 0]]) / speed[:, None]
+        gap = points[:, :2] - at
+        flat = np.hypot(gap[:, 0], gap[:, 1])
+        side = np.sign(np.einsum("ij,ij->i", gap, across))
+        steep = np.einsum("ni,ijd->njd", basis_matrix(self.knots, self.degree, z, 1), self.poles)
+        slope = -np.einsum("ij,ij->i", across, _ring_at(steep, u, count, 0))
+        c = 1 / np.hypot(1.0, slope)
+        columns, values = _local(u, count, 0)
+        weight = np.zeros((len(z), count))
+        np.add.at(weight, (np.arange(len(z))[:, None], columns), values)
+        lean = np.einsum("nd,ijd->nij", across, self.normals)
+        gradient = -(c[:, None, None] * along[:, :, None] * weight[:, None, :] * lean).reshape(len(z), -1)
+        bend = (d1[:, 0] * d2[:, 1] - d1[:, 1] * d2[:, 0]) / speed**3
+        normal = np.column_stack([across, slope]) * c[:, None]
+        return WallFoot(c * side * flat, normal, gradient, c * bend)
+
+    def _nearest(self, xy: Floats, z: Floats) -> Floats:
+        """Parameter (n,) of the sample nearest to each point, on the section of a height close by."""
+        count = PER_POLE * self.poles.shape[1]
+        levels = 4 * (len(self.poles) - 3) + 1
+        heights = np.linspace(self.knots[0], self.knots[-1], levels)
+        level = np.rint((z - heights[0]) / (heights[-1] - heights[0]) * (levels - 1)).astype(np.intp)
+        rings = self.ring(heights, np.arange(count) / count)
+        best = np.empty(len(z), dtype=np.intp)
+        for start in range(0, len(z), 4096):
+            part = slice(start, start + 4096)
+            gaps = rings[level[part]] - xy[part, None]
+            best[part] = np.argmin(np.einsum("nkd,nkd->nk", gaps, gaps), axis=1)
+        return best / count
+
+    def boundary(self, low: float, high: float, count: int) -> WallBoundary:
+        """About `count` points on the wall between two heights."""
+        inner = np.unique(np.clip(self.knots, low, high))
+        x, w = np.polynomial.legendre.leggauss(4)
+        z = ((inner[:-1, None] + inner[1:, None]) / 2 + np.diff(inner)[:, None] / 2 * x).ravel()
+        weights = (np.diff(inner)[:, None] / 2 * w).ravel()
+        around = max(4 * self.poles.shape[1], count // len(z))
+        u = (np.arange(around) + 0.5) / around
+        at, d1, dz = self.ring(z, u), self.ring(z, u, 1), self.ring(z, u, 0, 1)
+        speed = np.maximum(np.linalg.norm(d1, axis=2), 1e-12)
+        flat = np.stack([d1[..., 1], -d1[..., 0]], axis=2) / speed[..., None]
+        slope = -np.einsum("mkd,mkd->mk", flat, dz)
+        steep = np.hypot(1.0, slope)
+        points = np.concatenate([at, np.broadcast_to(z[:, None, None], (*at.shape[:2], 1))], axis=2)
+        normals = np.concatenate([flat, slope[..., None]], axis=2) / steep[..., None]
+        areas = weights[:, None] * speed / around * steep
+        return WallBoundary(points.reshape(-1, 3), normals.reshape(-1, 3), areas.ravel())
+
+
+def lofted(poles: Floats, knots: Floats) -> Lofted:
+    """Make a wall of poles (nv, nu, 2), counter-clockwise around, and clamped knots along."""
+    along = np.roll(poles, -1, axis=1) - np.roll(poles, 1, axis=1)
+    across = np.stack([along[..., 1], -along[..., 0]], axis=2)
+    normals = across / np.maximum(np.linalg.norm(across, axis=2, keepdims=True), 1e-12)
+    return Lofted(poles, knots, poles, normals)
+
+
+def _local(u: Floats, count: int, derivative: int) -> tuple[Ints, Floats]:
+    """Indices (n, 4) and values of the uniform periodic cubic basis functions that are not 0."""
+    x = np.mod(u, 1.0) * count
+    first = np.minimum(x.astype(np.intp), count - 1)
+    t = x - first
+    if derivative == 0:
+        values = [(1 - t) ** 3, 3 * t**3 - 6 * t**2 + 4, -3 * t**3 + 3 * t**2 + 3 * t + 1, t**3]
+    elif derivative == 1:
+        values = [-3 * (1 - t) ** 2, 9 * t**2 - 12 * t, -9 * t**2 + 6 * t + 3, 3 * t**2]
+    else:
+        values = [6 * (1 - t), 18 * t - 12, -18 * t + 6, 6 * t]
+    scale = count**derivative / 6
+    columns = (first[:, None] + np.arange(-3, 1)) % count
+    return columns, scale * np.column_stack(values)
+
+
+def _periodic(u: Floats, count: int, derivative: int) -> Floats:
+    columns, values = _local(u, count, derivative)
+    matrix = np.zeros((len(u), count))
+    np.add.at(matrix, (np.arange(len(u))[:, None], columns), values)
+    return matrix
+
+
+def _ring_at(rows: Floats, u: Floats, count: int, derivative: int) -> Floats:
+    columns, values = _local(u, count, derivative)
+    picked = np.take_along_axis(rows, columns[..., None], axis=1)
+    return np.einsum("nk,nkd->nd", values, picked)

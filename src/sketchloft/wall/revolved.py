@@ -1,0 +1,174 @@
+"""Revolved: a wall with circular sections about one axis; its profile is a line, an arc or a spline."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Self
+
+import numpy as np
+
+from sketchloft.cloud import Floats
+from sketchloft.surface import basis_matrix
+from sketchloft.wall.foot import WallBoundary, WallFoot
+from sketchloft.wall.profile import ArcProfile, LineProfile, Profile, SplineProfile
+
+__all__ = ["Revolved", "radius_at"]
+
+GAUSS = np.polynomial.legendre.leggauss(8)
+
+
+@dataclass(frozen=True)
+class Revolved:
+    """A wall of revolution about an axis along z.
+
+    Parameters
+    ----------
+    centre : (2,) float array
+        Where the axis is.
+    profile : Profile
+    """
+
+    centre: Floats
+    profile: Profile
+
+    @property
+    def kind(self) -> str:
+        """Cylinder, cone, sphere, torus or spline revolve."""
+        match self.profile:
+            case LineProfile(slope=None):
+                return "cylinder"
+            case LineProfile():
+                return "cone"
+            case ArcProfile(offset=None):
+                return "sphere"
+            case ArcProfile():
+                return "torus"
+            case _:
+                return "spline revolve"
+
+    @property
+    def vector(self) -> Floats:
+        """Centre, then the profile's parameters."""
+        return np.r_[self.centre, _profile_vector(self.profile)]
+
+    def moved(self, vector: Floats) -> Self:
+        """Return the wall with other parameters."""
+        return replace(self, centre=vector[:2].copy(), profile=_profile_moved(self.profile, vector[2:]))
+
+    def area(self, heights: Floats) -> Floats:
+        """Area of the sections at heights (m,)."""
+        return np.pi * radius_at(self.profile, heights)[0] ** 2
+
+    def foot(self, points: Floats) -> WallFoot:
+        """Signed distance of points (n, 3), and its derivatives."""
+        spoke = points[:, :2] - self.centre
+        r = np.maximum(np.hypot(spoke[:, 0], spoke[:, 1]), 1e-12)
+        e = spoke / r[:, None]
+        distance, n_r, n_z, gradient, bend = _profile_foot(self.profile, r, points[:, 2])
+        normal = np.column_stack([e * n_r[:, None], n_z])
+        return WallFoot(distance, normal, np.column_stack([-normal[:, :2], gradient]), bend + n_r / r)
+
+    def boundary(self, low: float, high: float, count: int) -> WallBoundary:
+        """About `count` points on the wall between two heights."""
+        pieces = max(1, count // 256)
+        z, weights = _heights(low, high, pieces, self.profile)
+        around = max(12, count // len(z))
+        angle = 2 * np.pi * (np.arange(around) + 0.5) / around
+        r, slope = radius_at(self.profile, z)
+        steep = np.hypot(1.0, slope)
+        e = np.column_stack([np.cos(angle), np.sin(angle)])
+        xy = self.centre + r[:, None, None] * e
+        points = np.concatenate([xy, np.broadcast_to(z[:, None, None], (*xy.shape[:2], 1))], axis=2)
+        normals = np.concatenate(
+            [
+                np.broadcast_to(e, xy.shape) / steep[:, None, None],
+                np.broadcast_to((-slope / steep)[:, None, None], (*xy.shape[:2], 1)),
+            ],
+            axis=2,
+        )
+        areas = np.broadcast_to((weights * r * steep * 2 * np.pi / around)[:, None], xy.shape[:2])
+        return WallBoundary(points.reshape(-1, 3), normals.reshape(-1, 3), areas.ravel())
+
+
+def radius_at(profile: Profile, heights: Floats) -> tuple[Floats, Floats]:
+    """Radius and slope dr/dz of a profile at heights (m,); 0 and a steep slope beyond a sphere's poles."""
+    match profile:
+        case LineProfile(height, radius, slope):
+            g = slope or 0.0
+            return np.maximum(radius + g * (heights - height), 0.0), np.full(len(heights), g)
+        case ArcProfile(height, offset, radius, side):
+            dz = heights - height
+            half = np.sqrt(np.maximum(radius**2 - dz**2, 0.0))
+            slope = -side * dz / np.maximum(half, 1e-9 * radius)
+            return np.maximum((offset or 0.0) + side * half, 0.0), slope
+        case SplineProfile(knots, radii):
+            values = basis_matrix(knots, SplineProfile.degree, heights) @ radii
+            slope = basis_matrix(knots, SplineProfile.degree, heights, 1) @ radii
+            return np.maximum(values, 0.0), slope
+
+
+def _heights(low: float, high: float, pieces: int, profile: Profile) -> tuple[Floats, Floats]:
+    """Gauss points and weights along z; on an arc in its angle, so that poles are integrated well."""
+    x, w = GAUSS
+    ends = np.linspace(0.0, 1.0, pieces + 1)
+    t = ((ends[:-1, None] + ends[1:, None]) / 2 + np.diff(ends)[:, None] / 2 * x).ravel()
+    weight = (np.diff(ends)[:, None] / 2 * w).ravel()
+    if isinstance(profile, ArcProfile):
+        span = np.arcsin(np.clip((np.array([low, high]) - profile.height) / profile.radius, -1, 1))
+        angle = span[0] + t * (span[1] - span[0])
+        return (
+            profile.height + profile.radius * np.sin(angle),
+            weight * profile.radius * np.cos(angle) * (span[1] - span[0]),
+        )
+    return low + t * (high - low), weight * (high - low)
+
+
+def _profile_vector(profile: Profile) -> Floats:
+    match profile:
+        case LineProfile(_, radius, slope):
+            return np.array([radius] if slope is None else [radius, slope])
+        case ArcProfile(height, offset, radius):
+            return np.array([height, radius] if offset is None else [height, radius, offset])
+        case SplineProfile(_, radii):
+            return radii
+
+
+def _profile_moved(profile: Profile, vector: Floats) -> Profile:
+    match profile:
+        case LineProfile(slope=None):
+            return replace(profile, radius=float(vector[0]))
+        case LineProfile():
+            return replace(profile, radius=float(vector[0]), slope=float(vector[1]))
+        case ArcProfile(offset=None):
+            return replace(profile, height=float(vector[0]), radius=float(vector[1]))
+        case ArcProfile():
+            return replace(
+                profile, height=float(vector[0]), radius=float(vector[1]), offset=float(vector[2])
+            )
+        case SplineProfile():
+            return replace(profile, radii=vector.copy())
+
+
+def _profile_foot(profile: Profile, r: Floats, z: Floats) -> tuple[Floats, Floats, Floats, Floats, Floats]:
+    """Signed distance in the half plane, its gradient by r, by z and by the parameters, and the bend."""
+    match profile:
+        case LineProfile(height, radius, slope):
+            g = slope or 0.0
+            c = 1 / np.hypot(1.0, g)
+            s = c * (r - radius - g * (z - height))
+            one = np.ones(len(r))
+            columns = [-c * one] if slope is None else [-c * one, -c * (z - height) - s * g * c**2]
+            return s, c * one, -g * c * one, np.column_stack(columns), 0 * one
+        case ArcProfile(height, offset, radius, side):
+            w_r, w_z = r - (offset or 0.0), z - height
+            if offset is not None:  # on the far side of the arc's own axis the arc is not the wall
+                w_r = side * np.maximum(side * w_r, 1e-12)
+            length = np.maximum(np.hypot(w_r, w_z), 1e-12)
+            n_r, n_z = side * w_r / length, side * w_z / length
+            columns = [-n_z, np.full(len(r), -float(side))] + ([] if offset is None else [-n_r])
+            return side * (length - radius), n_r, n_z, np.column_stack(columns), side / length
+        case SplineProfile(knots, radii):
+            basis = basis_matrix(knots, SplineProfile.degree, z)
+            slope = basis_matrix(knots, SplineProfile.degree, z, 1) @ radii
+            c = 1 / np.hypot(1.0, slope)
+            return c * (r - basis @ radii), c, -slope * c, -c[:, None] * basis, np.zeros(len(r))

@@ -1,0 +1,225 @@
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.spatial import cKDTree
+
+from sketchloft.outline.chain import chain_area, chain_boundary
+from sketchloft.outline.chain_foot import chain_foot
+from sketchloft.outline.circle import Circle
+from sketchloft.outline.ellipse import Ellipse
+from sketchloft.outline.outline import Arc, Boundary, Closed, Outline, Segment
+from sketchloft.outline.placed_polygons import Rectangle, RegularPolygon, RoundedRectangle
+from sketchloft.outline.polygons import LineArc, Polygon
+from sketchloft.outline.rounded_polygon import RoundedPolygon
+from sketchloft.outline.spline_loop import SplineLoop, spline_loop
+from sketchloft.ring import ring_area, ring_depth
+from sketchloft.shapes.spline import ClosedSpline
+
+CENTRE = np.array([0.3, -0.2])
+ELL = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]]) - 0.8
+BULGES = np.array([0.0, 0.3, 0.0, -0.5, 0.2, -0.2])
+
+
+def on_rays(radii: np.ndarray) -> np.ndarray:
+    angle = 2 * np.pi * np.arange(len(radii)) / len(radii)
+    return radii[:, None] * np.column_stack([np.cos(angle), np.sin(angle)])
+
+
+def clover() -> SplineLoop:
+    return spline_loop(on_rays(1 + 0.2 * np.cos(3 * 2 * np.pi * np.arange(20) / 20)))
+
+
+OUTLINES: dict[str, Outline] = {
+    "circle": Circle(CENTRE, 1.1),
+    "ellipse": Ellipse(CENTRE, 1.2, 0.5, 0.7),
+    "ellipse, axes swapped": Ellipse(CENTRE, 0.5, 1.2, 0.7),
+    "rectangle": Rectangle(CENTRE, 2.0, 1.0, 0.4),
+    "rounded rectangle": RoundedRectangle(CENTRE, 1.0, 2.0, 0.4, 0.2),
+    "stadium": RoundedRectangle(CENTRE, 2.0, 1.0, 0.4, 0.5),
+    "regular polygon": RegularPolygon(CENTRE, 1.0, 0.3, 5),
+    "polygon": Polygon(ELL),
+    "rounded polygon": RoundedPolygon(ELL, 0.2),
+    "line-arc": LineArc(ELL, BULGES, np.array([False, True, False, True, True, True])),
+    "two arcs": LineArc(np.array([[-1.0, 0.0], [1.0, 0.0]]), np.array([0.4, 1.8]), np.ones(2, bool)),
+    "lens": LineArc(np.array([[-1.0, 0.0], [1.0, 0.0]]), np.array([0.4, -0.1]), np.ones(2, bool)),
+    "long star": Polygon(on_rays(np.tile([1.0, 1.3], 20))),
+    "spline": clover(),
+}
+each = pytest.mark.parametrize("outline", OUTLINES.values(), ids=OUTLINES.keys())
+
+
+def around(count: int, seed: int = 0) -> np.ndarray:
+    return np.random.default_rng(seed).uniform(-2, 2, (count, 2))
+
+
+def dense(outline: Outline) -> Boundary:
+    return outline.boundary(8000)
+
+
+def differences(outline: Outline, points: np.ndarray, step: float) -> np.ndarray:
+    """One-sided derivative of the distance by the parameters."""
+    moved = [outline.moved(outline.vector + step * e).foot(points) for e in np.eye(len(outline.vector))]
+    columns = [(foot.distance - outline.foot(points).distance) / step for foot in moved]
+    return np.stack(columns, axis=1)
+
+
+@each
+def test_the_distance_is_that_from_the_nearest_point_of_the_boundary(outline: Outline) -> None:
+    points, ring = around(500), dense(outline).points
+    found = outline.foot(points).distance
+    near, _ = cKDTree(ring).query(points)
+    assert np.abs(found) == pytest.approx(near, abs=2e-3)
+    assert (np.abs(found) < near + 1e-9).all()
+    clear = near > 5e-3
+    np.testing.assert_array_equal(np.sign(found)[clear], -np.sign(ring_depth(points, ring))[clear])
+
+
+@each
+def test_the_boundary_lies_on_the_outline_and_its_normals_are_the_feets(outline: Outline) -> None:
+    boundary = outline.boundary(200)
+    foot = outline.foot(boundary.points)
+    assert np.abs(foot.distance).max() < 1e-12
+    np.testing.assert_allclose(foot.normal, boundary.normals, atol=1e-9)
+    off = outline.foot(boundary.points + 1e-4 * boundary.normals)
+    np.testing.assert_allclose(off.distance, 1e-4, atol=1e-12)
+    np.testing.assert_allclose(off.curvature, foot.curvature, atol=1e-5)
+
+
+@each
+def test_area_and_perimeter_are_those_of_a_dense_boundary(outline: Outline) -> None:
+    boundary = dense(outline)
+    assert outline.area == pytest.approx(ring_area(boundary.points), rel=1e-5)
+    along = np.linalg.norm(np.roll(boundary.points, -1, axis=0) - boundary.points, axis=1)
+    assert boundary.lengths.sum() == pytest.approx(along.sum(), rel=1e-3)
+    assert outline.boundary(100).lengths.sum() == pytest.approx(boundary.lengths.sum(), rel=1e-5)
+    # Gauss: the area is the flux of (x, y) / 2, and no constant field has any.
+    flux = np.einsum("ij,ij,i->", boundary.points, boundary.normals, boundary.lengths) / 2
+    assert flux == pytest.approx(outline.area, rel=1e-9)
+    np.testing.assert_allclose(boundary.lengths @ boundary.normals, 0, atol=1e-9)
+
+
+@each
+def test_the_gradients_are_the_derivatives_of_the_distance(outline: Outline) -> None:
+    points = around(400)
+    foot = outline.foot(points)
+    step = 1e-6
+    forward, back = differences(outline, points, step), differences(outline, points, -step)
+    if isinstance(outline, RoundedRectangle) and outline.radius == outline.height / 2:
+        back[:, 3], forward[:, 5] = forward[:, 3], back[:, 5]  # beyond these ends of the range it is clamped
+    wrong = np.abs((forward + back) / 2 - foot.gradient).max(axis=1)
+    assert np.quantile(wrong, 0.98) < 2e-6  # but for points whose foot jumps
+    shifts = [step * axis for axis in np.eye(2)]
+    columns = [(outline.foot(points + s).distance - outline.foot(points - s).distance) for s in shifts]
+    wrong = np.abs(np.stack(columns, axis=1) / (2 * step) - foot.normal).max(axis=1)
+    assert np.quantile(wrong, 0.98) < 1e-6
+    np.testing.assert_allclose(np.linalg.norm(foot.normal, axis=1), 1, atol=1e-12)
+
+
+@each
+def test_moved_takes_what_vector_gives(outline: Outline) -> None:
+    vector = outline.vector
+    np.testing.assert_array_equal(outline.moved(vector).vector, vector)
+    other = vector + 0.01 * np.sin(np.arange(len(vector)))
+    moved = outline.moved(other)
+    assert moved.kind == outline.kind
+    np.testing.assert_allclose(moved.vector, other, atol=0.02)
+    np.testing.assert_array_equal(outline.vector, vector)
+    assert outline.foot(np.zeros((0, 2))).gradient.shape == (0, len(vector))
+
+
+@each
+def test_the_edges_close_up_and_lie_on_the_outline(outline: Outline) -> None:
+    edges = outline.edges()
+    if isinstance(edges[0], Closed):
+        assert len(edges) == 1
+        assert edges[0].kind == outline.kind
+        return
+    bounded = [edge for edge in edges if isinstance(edge, Segment | Arc)]
+    for edge, following in zip(bounded, bounded[1:] + bounded[:1], strict=True):
+        np.testing.assert_array_equal(edge.end, following.start)
+        middle = edge.middle if isinstance(edge, Arc) else (edge.start + edge.end) / 2
+        assert np.abs(outline.foot(np.stack([edge.start, middle])).distance).max() < 1e-12
+
+
+def test_known_areas_and_edges() -> None:
+    stadium = OUTLINES["stadium"]
+    assert stadium.area == pytest.approx(1 + np.pi / 4, rel=1e-12)
+    assert [type(edge) for edge in stadium.edges()] == [Arc, Segment, Arc, Arc, Segment, Arc]
+    assert OUTLINES["polygon"].area == pytest.approx(3, rel=1e-12)
+    # Five convex corners lose what the one that is not convex gains.
+    assert OUTLINES["rounded polygon"].area == pytest.approx(3 - 4 * 0.04 * (1 - np.pi / 4), rel=1e-12)
+    half = np.array([[-1.0, 0.0], [1.0, 0.0]])
+    assert chain_area(half, np.ones(2)) == pytest.approx(np.pi, rel=1e-12)
+    sharp = RoundedRectangle(CENTRE, 2.0, 1.0, 0.4, 0.0)
+    assert [type(edge) for edge in sharp.edges()] == 4 * [Segment]
+    rectangle = OUTLINES["rectangle"].foot(around(200))
+    np.testing.assert_allclose(sharp.foot(around(200)).distance, rectangle.distance, atol=1e-12)
+    assert RoundedRectangle(CENTRE, 2.0, 1.0, 0.0, 9.0).area == pytest.approx(stadium.area)
+    assert RoundedPolygon(ELL, 9.0).moved(np.r_[ELL.ravel(), 9.0]).radius == pytest.approx(0.5)
+    (edge,) = OUTLINES["ellipse, axes swapped"].edges()
+    assert isinstance(edge, Closed)
+    np.testing.assert_allclose(edge.poles[1:], [[1.2, 0.5], [-np.sin(0.7), np.cos(0.7)]])
+
+
+def test_the_spline_is_the_closed_spline_of_its_poles() -> None:
+    loop = clover()
+    points = ClosedSpline(loop.poles).evaluate(np.arange(97) / 97)
+    assert np.abs(loop.foot(points).distance).max() < 1e-12
+    outside = loop.moved(loop.vector + 0.05).foot(loop.boundary(100).points).distance
+    assert (outside < -0.03).all()
+
+
+def test_the_centres_of_round_things_have_finite_feet() -> None:
+    for outline in (Circle(CENTRE, 1.0), Ellipse(CENTRE, 1.5, 1.0, 0.3), Ellipse(CENTRE, 1.0, 1.0, 0.0)):
+        foot = outline.foot(CENTRE[None])
+        assert foot.distance == pytest.approx(-1)
+        assert np.linalg.norm(foot.normal) == pytest.approx(1)
+        assert np.isfinite(foot.gradient).all()
+
+
+def test_bulges_next_to_nothing_are_as_good_as_lines() -> None:
+    points = around(200)
+    straight = chain_foot(points, ELL, np.zeros(6))
+    for bulge in (1e-14, -1e-9):
+        bent = chain_foot(points, ELL, np.full(6, bulge))
+        np.testing.assert_allclose(bent[0], straight[0], atol=1e-8)
+        np.testing.assert_allclose(bent[2], straight[2], atol=1e-7)
+    for low, high in ((0.02999, 0.03001), (-0.03001, -0.02999)):  # where the area goes over to its series
+        areas = [chain_area(ELL, np.full(6, bulge)) for bulge in (low, high)]
+        assert areas[1] - areas[0] == pytest.approx(2e-5 * 12 / 3, rel=1e-2)
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.floats(0.02, 1.0), st.floats(0, 2 * np.pi), st.floats(-1, 2))
+def test_the_foot_on_an_ellipse_is_exact(ratio: float, angle: float, offset: float) -> None:
+    ellipse = Ellipse(np.zeros(2), 1.0, ratio, 0.0)
+    at = np.array([np.cos(angle), ratio * np.sin(angle)])
+    normal = np.array([ratio * np.cos(angle), np.sin(angle)])
+    normal /= np.linalg.norm(normal)
+    # Inwards, the foot stays the nearest up to the first centre of curvature, on the major axis at worst.
+    distance = offset if offset > 0 else offset * 0.9 * ratio**2
+    foot = ellipse.foot((at + distance * normal)[None])
+    assert foot.distance[0] == pytest.approx(distance, rel=1e-10, abs=1e-14)
+    np.testing.assert_allclose(foot.normal[0], normal, atol=1e-7)
+
+
+@settings(max_examples=40, deadline=None)
+@given(
+    st.lists(st.tuples(st.floats(0.5, 1.5), st.floats(-0.15, 0.6)), min_size=3, max_size=12),
+    st.integers(0, 99),
+)
+def test_inside_and_outside_of_any_chain(corners: list[tuple[float, float]], seed: int) -> None:
+    radii, bulges = np.array(corners).T
+    vertices = on_rays(radii)
+    ring = chain_boundary(vertices, bulges, 3000).points
+    from shapely import LinearRing
+
+    if not LinearRing(ring).is_simple:
+        return
+    points = around(100, seed)
+    distance, normal, _, _ = chain_foot(points, vertices, bulges)
+    expected = -ring_depth(points, ring)
+    assert np.abs(distance - expected).max() < 5e-3
+    feet = points - distance[:, None] * normal
+    assert np.abs(chain_foot(feet, vertices, bulges)[0]).max() < 1e-9

@@ -72,7 +72,7 @@ def coarse() -> Iterator[None]:
 
 
 def lofted(name: str, n: int, axis: tuple[float, float, float]) -> Reconstruction:
-    return reconstruct(sample_goal(GOALS[name], n, seed=1), Params(direction=DirectionParams(axis)))
+    return reconstruct(sample_goal(GOALS[name], n, seed=1), Params("paper", direction=DirectionParams(axis)))
 
 
 @pytest.fixture(scope="module")
@@ -80,7 +80,7 @@ def shaft() -> Reconstruction:
     """A cylinder with points that are not finite or repeated, and a nasty name."""
     points = sample_goal(GOALS["cylinder"], 1500, seed=1).points
     extra = np.array([[np.nan, 0, 0], [0, np.inf, 0]])
-    return reconstruct(PointCloud(np.concatenate([points, extra, points[:3]]), name=NASTY))
+    return reconstruct(PointCloud(np.concatenate([points, extra, points[:3]]), name=NASTY), Params("paper"))
 
 
 @pytest.fixture(scope="module")
@@ -93,7 +93,7 @@ def pair() -> Reconstruction:
     one = sample_goal(GOALS["cone"], 1200, seed=1).points
     two = sample_goal(GOALS["box"], 800, seed=2).points
     cloud = PointCloud(np.concatenate([one, two + np.array([30, 0, 0])]), unit="cm", name="pair")
-    return reconstruct(cloud, Params(direction=DirectionParams((0, 0, 1))))
+    return reconstruct(cloud, Params("paper", direction=DirectionParams((0, 0, 1))))
 
 
 @pytest.fixture(scope="module")

@@ -11,24 +11,32 @@ from sketchloft.cloud import Floats
 from sketchloft.exact_model import ExactModel, tied
 from sketchloft.fit import climb
 from sketchloft.joins import natural_joins, sole_profile
-from sketchloft.likelihood import beside_walls, evaluate
+from sketchloft.likelihood import beside_walls, value_of
+from sketchloft.loft_start import loft_start
 from sketchloft.segment_walls import evidence_price, spline_knots
 from sketchloft.simpler_walls import walls_like
 from sketchloft.stack import Run
 from sketchloft.surface import basis_matrix
 from sketchloft.surgery import with_run, with_runs, without_run
-from sketchloft.wall.profile import SplineProfile
+from sketchloft.wall.lofted import Lofted
+from sketchloft.wall.profile import ArcProfile, SplineProfile
 from sketchloft.wall.revolved import Revolved, radius_at
 
 __all__ = ["coaxial", "improved"]
 
 BESIDE = 6.0
 """Noise deviations from the walls within which points decide."""
-STEPS = 5
+STEPS = (2, 4)
+HOPELESS = 40.0
+"""A change that is still so much worse after the first few steps is given up."""
 SHORT = 8.0
 """Runs shorter than so many noise deviations are taken for noise unless they gain a lot."""
 SPLINE_GAIN = 20.0
 """What one free profile must gain over a chain of lines and arcs."""
+LOFTS = ((10, 2), (12, 4), (16, 6))
+"""Poles around and spans along of the free walls that are tried."""
+PATIENCE = 400.0
+"""`HOPELESS` for a free wall, which starts from contours and has far to go."""
 Change = tuple[ExactModel, range, float]
 
 
@@ -49,6 +57,7 @@ def improved(points: Floats, model: ExactModel, together: float, rounds: int = 3
         before = model
         for changes in (_merges, _chains, _swaps):
             model = _through(points, model, together, changes)
+        model = _lofted(points, model, together)
         if model is before:
             break
     return model
@@ -70,7 +79,59 @@ def _through(points: Floats, model: ExactModel, together: float, changes) -> Exa
             return model
 
 
-def _tried(points: Floats, model: ExactModel, change: Change, together: float) -> ExactModel | None:
+def _lofted(points: Floats, model: ExactModel, together: float) -> ExactModel:
+    """One free wall for a chain of runs, or for a run that is not revolved, where it pays."""
+    start = 0
+    while start < len(model.stack.runs):
+        stop = start + 1
+        while stop < len(model.stack.runs) and _smooth(model, stop):
+            stop += 1
+        runs = model.stack.runs[start:stop]
+        single = all(len(run.walls) == 1 for run in runs)
+        revolved = all(isinstance(run.walls[0], Revolved) for run in runs)
+        free = len(runs) == 1 and isinstance(runs[0].walls[0], Lofted)
+        if single and not revolved and not free:
+            ends = float(model.stack.breaks[start]), float(model.stack.breaks[stop])
+            best: ExactModel | None = None
+            for around, spans in LOFTS:
+                wall = loft_start(points, ends, around, spans, together)
+                if wall is None:
+                    continue
+                change = with_runs(model, start, stop - 1, Run((wall,)))
+                better = _tried(
+                    points,
+                    best or model,
+                    (change, range(start, start + 1), SPLINE_GAIN),
+                    together,
+                    hopeless=PATIENCE,
+                )
+                if better is None and best is not None:
+                    break
+                best = better or best
+            model = best or model
+            stop = start + 1 if best is not None else stop
+        start = stop
+    return model
+
+
+def _smooth(model: ExactModel, k: int) -> bool:
+    """Whether the walls below and above a break are one each and meet there, about."""
+    below, above = model.stack.runs[k - 1], model.stack.runs[k]
+    if len(below.walls) != 1 or len(above.walls) != 1:
+        return False
+    at = np.array([model.stack.breaks[k]])
+    first, second = float(below.walls[0].area(at)[0]), float(above.walls[0].area(at)[0])
+    return abs(np.sqrt(first) - np.sqrt(second)) < max(10 * model.sigma, 0.04)
+
+
+def _tried(
+    points: Floats,
+    model: ExactModel,
+    change: Change,
+    together: float,
+    *,
+    hopeless: float = HOPELESS,
+) -> ExactModel | None:
     """Fit a changed model beside its change; None if it does not pay."""
     candidate, runs, handicap = change
     breaks = candidate.stack.breaks
@@ -80,11 +141,16 @@ def _tried(points: Floats, model: ExactModel, change: Change, together: float) -
     near = near[beside_walls(near, model, BESIDE * model.sigma) | beside_walls(near, candidate, BESIDE * model.sigma)]
     if not len(near):
         return None
-    old = evaluate(near, model).value / together - _price(model, len(points), together)
+    old = value_of(near, model) / together - _price(model, len(points), together)
     wide = range(max(runs.start - 1, 0), min(runs.stop + 1, len(breaks) - 1))
-    fitted, _, _ = climb(near, candidate, STEPS, runs=wide)
+    fitted = candidate
+    for steps in STEPS:
+        fitted, _, _ = climb(near, fitted, steps, runs=wide)
+        new = value_of(near, fitted) / together - _price(fitted, len(points), together)
+        if new < old + handicap - hopeless:
+            return None
     fitted = natural_joins(fitted)
-    new = evaluate(near, fitted).value / together - _price(fitted, len(points), together)
+    new = value_of(near, fitted) / together - _price(fitted, len(points), together)
     return fitted if new > old + handicap else None
 
 
@@ -182,16 +248,65 @@ def _swaps(model: ExactModel) -> Iterator[Change]:
                 yield with_run(model, j, Run(walls, run.holes)), range(j, j + 1), 0.0
 
 
-def coaxial(points: Floats, model: ExactModel, together: float) -> ExactModel:
-    """Let all revolved walls have one axis, if it pays."""
+def coaxial(
+    points: Floats, model: ExactModel, together: float, *, tilt: bool
+) -> tuple[ExactModel, Floats, Floats]:
+    """Let all revolved walls have one axis, if it pays.
+
+    Returns
+    -------
+    ExactModel
+    (n, 3) float array
+        The points, turned so that the axis is along z where the tilt is free.
+    (3, 3) float array
+        The rotation: new points = old points @ rotation.
+    """
     places = [
         (j, i)
         for j, run in enumerate(model.stack.runs)
         for i, wall in enumerate(run.walls)
         if isinstance(wall, Revolved)
     ]
+    still = model, points, np.eye(3)
     if len(places) < 2:
-        return model
+        return still
+    turn = _through_centres(model, places) if tilt else np.eye(3)
+    turned = points @ turn
     pairs = [((*places[0], k), (*place, k)) for place in places[1:] for k in (0, 1)]
-    change = tied(model, pairs), range(len(model.stack.runs)), 0.0
-    return _tried(points, replace(model), change, together) or model
+    near = turned[beside_walls(turned, model, 2 * BESIDE * model.sigma)]
+    change, _, rotation = climb(near, tied(model, pairs), 12, tilt=tilt)
+    change = natural_joins(change)
+    old = value_of(points, model) / together - _price(model, len(points), together)
+    turned = turned @ rotation
+    new = value_of(turned, change) / together - _price(change, len(points), together)
+    return (change, turned, turn @ rotation) if new > old else still
+
+
+def _through_centres(model: ExactModel, places: list[tuple[int, int]]) -> Floats:
+    """Rotation that brings the line through the walls' centres along z."""
+    breaks = model.stack.breaks
+    at, weights = [], []
+    for j, i in places:
+        wall = model.stack.runs[j].walls[i]
+        if isinstance(wall, Revolved):
+            height = (breaks[j] + breaks[j + 1]) / 2
+            if isinstance(wall.profile, ArcProfile) and wall.profile.offset is None:
+                height = wall.profile.height
+            at.append([*wall.centre, height])
+            weights.append(breaks[j + 1] - breaks[j])
+    z = np.array(at)[:, 2]
+    if np.ptp(z) < 1e-3:
+        return np.eye(3)
+    slope = np.polyfit(z, np.array(at)[:, :2], 1, w=np.sqrt(weights))[0]
+    if np.hypot(*slope) > STEEPEST:
+        return np.eye(3)
+    axis = np.array([*slope, 1.0]) / np.sqrt(1 + slope @ slope)
+    a, b = axis[0], axis[1]
+    # The smallest rotation that takes the axis to z (Rodrigues).
+    cross = np.array([[0, 0, a], [0, 0, b], [-a, -b, 0.0]])
+    rotation = np.eye(3) - cross + cross @ cross / (1 + axis[2])
+    return np.asarray(rotation.T, dtype=np.float64)
+
+
+STEEPEST = 0.2
+"""Largest slope of the line through the centres that is taken for a common axis seen askew."""

@@ -12,6 +12,7 @@ from sketchloft.direction import Axis
 from sketchloft.dispersion import dispersion
 from sketchloft.errors import StageError
 from sketchloft.evidence import coaxial, improved
+from sketchloft.exact_direction import Candidate, exact_direction
 from sketchloft.exact_fit import sharpened
 from sketchloft.exact_model import ExactModel
 from sketchloft.exact_start import first_stack
@@ -20,6 +21,7 @@ from sketchloft.frame import Frame, frame_along
 from sketchloft.inside_density import inside_density
 from sketchloft.joins import natural_joins
 from sketchloft.level_set import level_set, on_grid
+from sketchloft.likelihood import beside_walls
 from sketchloft.segments import SegmentsParams, segments
 
 if TYPE_CHECKING:
@@ -34,6 +36,7 @@ START = 0.006
 AT_LEAST = 0.004
 """Noise that the evidence is judged with at least: sharper walls would trap the search."""
 ROOM = 1.25
+BESIDE = 8.0
 
 
 @dataclass(frozen=True)
@@ -59,6 +62,8 @@ class ExactBody:
         In the frame of the slicing direction, about 1 across.
     vector : (3,) float array
         The slicing direction.
+    candidates : tuple of Candidate
+        Directions that were compared; none where it was given.
     frame : Frame
         From the axes of the cloud to those of the body.
     centre : (3,) float array
@@ -78,6 +83,7 @@ class ExactBody:
     name: str
     points: Floats
     vector: Floats
+    candidates: tuple[Candidate, ...]
     frame: Frame
     centre: Floats
     scale: float
@@ -116,39 +122,60 @@ def exact_body(  # noqa: PLR0913
     low, high = np.quantile(points, [0.004, 0.996], axis=0)
     middle, scale = (low + high) / 2, float(np.linalg.norm(high - low))
     unit = (points - middle) / scale
-    vector = np.array([0.0, 0.0, 1.0]) if axis == "auto" else np.asarray(axis, dtype=float)
+    if axis == "auto":
+        candidates = _candidates(unit, params)
+        vector = candidates[0].vector
+    else:
+        candidates, vector = (), np.asarray(axis, dtype=float)
     frame = frame_along(vector, unit)
     local = frame.to_local(unit)
     progress("runs")
-    grid = level_set(local)
-    together = dispersion(local, grid)
-    kept = local[on_grid(grid, local, 2 * grid.blur)]
-    density = inside_density(local, grid, together)
-    cuts = segments(kept, params.segments, together)
-    space = ROOM * float(np.prod(np.ptp(local, axis=0)))
-    first = first_stack(kept, cuts, grid.blur, START, together, density, space)
-    if first is None:
+    start = _start(local, params)
+    if start is None:
         raise StageError("found no section that the points fill; draw more of the inside", stage="runs")
+    cuts, first, together = start
     progress("evidence")
     model = _settled(local, first)
     model = natural_joins(replace(model, sigma=max(model.sigma, AT_LEAST)))
     model = improved(local, model, together)
-    model = coaxial(local, model, together)
+    model, local, turn = coaxial(local, model, together, tilt=axis == "auto")
     progress("fit")
-    model, local, turn = sharpened(local, model, tilt=axis == "auto")
+    model, local, rotation = sharpened(local, model, tilt=axis == "auto")
+    turn = turn @ rotation
     frame = Frame(turn.T @ frame.axes)
     progress("solid")
     from sketchloft.brep.build_stack import built_stack  # noqa: PLC0415  the kernel takes most of a second
 
     solid, facts = built_stack(model.stack, origin + middle, frame.axes, scale)
     return ExactBody(
-        name, local, frame.direction, frame, middle, scale, cuts, first, model, solid, facts
+        name, local, frame.direction, candidates, frame, middle, scale, cuts, first, model, solid, facts
     )
 
 
+def _candidates(points: Floats, params: ExactParams) -> tuple[Candidate, ...]:
+    grid = level_set(points)
+    kept = points[on_grid(grid, points, 2 * grid.blur)]
+    mean = kept.mean(axis=0)
+    together = dispersion(points, grid)
+    grid = replace(grid, origin=grid.origin - mean)
+    return exact_direction(kept - mean, grid, params.segments, together)
+
+
+def _start(points: Floats, params: ExactParams) -> tuple[Floats, ExactModel, float] | None:
+    """Cuts, the first stack, and how many points go together."""
+    grid = level_set(points)
+    together = dispersion(points, grid)
+    kept = points[on_grid(grid, points, 2 * grid.blur)]
+    density = inside_density(points, grid, together)
+    cuts = segments(kept, params.segments, together)
+    space = ROOM * float(np.prod(np.ptp(points, axis=0)))
+    first = first_stack(kept, cuts, grid.blur, START, together, density, space)
+    return None if first is None else (cuts, first, together)
+
+
 def _settled(points: Floats, model: ExactModel) -> ExactModel:
-    model = fit_density(points, model, 2)
-    model, _, _ = climb(points, model, 10)
-    model = fit_density(points, model, 2)
-    model, _, _ = climb(points, model, 5, noise=True)
+    for noise in (False, True):
+        model = fit_density(points, model, 2)
+        near = points[beside_walls(points, model, BESIDE * model.sigma)]
+        model, _, _ = climb(near, model, 8, noise=noise)
     return model

@@ -9,7 +9,7 @@ import numpy as np
 from sketchloft.cloud import Floats
 from sketchloft.exact_model import ExactModel
 from sketchloft.fit import climb, fit_density
-from sketchloft.likelihood import beside_walls, evaluate
+from sketchloft.likelihood import beside_walls, value_of
 
 __all__ = ["sharpened"]
 
@@ -39,7 +39,7 @@ def sharpened(points: Floats, model: ExactModel, *, tilt: bool) -> tuple[ExactMo
         near = beside_walls(points, model, BESIDE * sigma)
         model, _, rotation = climb(points[near], model, 6, tilt=tilt)
         points, turn = points @ rotation, turn @ rotation
-        value = evaluate(points, model).value
+        value = value_of(points, model)
         rising = best is None or value > best[0]
         if rising:
             best = value, model, turn

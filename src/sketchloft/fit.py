@@ -9,7 +9,7 @@ import numpy as np
 from sketchloft.cloud import Floats
 from sketchloft.exact_model import Density, ExactModel
 from sketchloft.joins import joined
-from sketchloft.likelihood import Evaluation, evaluate, mass_nodes
+from sketchloft.likelihood import Evaluation, evaluate, mass_nodes, share_of, sound, value_of
 
 __all__ = ["climb", "fit_density", "log_likelihood"]
 
@@ -21,7 +21,7 @@ STRIDE = 3.0
 
 def log_likelihood(points: Floats, model: ExactModel, *, caps: bool = True) -> float:
     """Log likelihood of all points (n, 3)."""
-    return evaluate(points, model, caps=caps).value - model.stray * model.space
+    return value_of(points, model, caps=caps) - model.stray * model.space
 
 
 def climb(  # noqa: PLR0913
@@ -65,6 +65,8 @@ def climb(  # noqa: PLR0913
     damping, turn = 1e-3, np.eye(3)
     model = joined(model)
     now = evaluate(points, model, caps=caps)
+    if not np.isfinite(now.value):
+        return model, points, turn
     for _ in range(steps):
         free = _free(model, walls=walls, tilt=tilt, noise=noise)
         if runs is not None:
@@ -152,11 +154,13 @@ def _rotation(a: float, b: float) -> Floats:
 
 def fit_density(points: Floats, model: ExactModel, rounds: int = 3, *, caps: bool = True) -> ExactModel:
     """Fit the density inside and that of the strays to the points (n, 3), the walls held still."""
+    if not sound(model):
+        return model
     at, volumes = mass_nodes(model)
     count = len(model.density.coefficients)
     terms, nodes = Density.terms(points, count), Density.terms(at, count)
     for _ in range(rounds):
-        share = evaluate(points, model, with_mass=False, caps=caps).share
+        share = share_of(points, model, caps=caps)
         coefficients = model.density.coefficients.copy()
         mass = max(float(np.exp(np.clip(nodes @ coefficients, -50, 50)) @ volumes), 1e-12)
         coefficients[0] += np.log(max(float(share.sum()), 1.0) / mass)

@@ -15,11 +15,11 @@ from sketchloft.cloud import Floats
 from sketchloft.exact_model import ExactModel
 from sketchloft.stack import Run
 
-__all__ = ["Evaluation", "beside_walls", "evaluate", "mass_nodes", "wall_nodes"]
+__all__ = ["Evaluation", "beside_walls", "evaluate", "mass_nodes", "share_of", "sound", "value_of", "wall_nodes"]
 
 REACH = 5.0
 """Noise deviations beyond which a wall is taken to be a sharp step."""
-NODES = 400
+NODES = 120
 """Points per wall to integrate the density with."""
 RADIAL = np.polynomial.legendre.leggauss(3)
 
@@ -35,8 +35,6 @@ class Evaluation:
     score : (p,) float array
     information : (p, p) float array
         Sum of the outer products of the points' scores.
-    share : (n,) float array
-        Each point's probability to be none of the strays.
     reach : (p,) float array
         Largest movement of a wall that a unit of each parameter makes.
     """
@@ -44,7 +42,6 @@ class Evaluation:
     value: float
     score: Floats
     information: Floats
-    share: Floats
     reach: Floats
 
 
@@ -54,17 +51,13 @@ def beside_walls(points: Floats, model: ExactModel, width: float) -> NDArray[np.
     return np.asarray(inside < 0.9987)
 
 
-def evaluate(
-    points: Floats, model: ExactModel, *, with_mass: bool = True, caps: bool = True
-) -> Evaluation:
+def evaluate(points: Floats, model: ExactModel, *, caps: bool = True) -> Evaluation:
     """Evaluate the likelihood of the points (n, 3) and its derivatives.
 
     Parameters
     ----------
     points : (n, 3) float array
     model : ExactModel
-    with_mass : bool
-        Whether the expected number of points counts; without it only `share` means something.
     caps : bool
         Whether the first and last break are walls. Without, all points must lie between them.
     """
@@ -75,10 +68,39 @@ def evaluate(
     ratio = (rho / total)[:, None] * slope
     score = ratio.sum(axis=0)
     value = float(np.log(total).sum())
-    if with_mass:
+    if sound(model):
         value -= _mass(model)
         score[: walls + breaks] -= _mass_slope(model, caps=caps)
-    return Evaluation(value, score, ratio.T @ ratio, rho * inside / total, reach)
+    else:
+        value = -np.inf
+    return Evaluation(value, score, ratio.T @ ratio, reach)
+
+
+def value_of(points: Floats, model: ExactModel, *, caps: bool = True) -> float:
+    """Return the log likelihood alone, as `evaluate` does."""
+    if not sound(model):
+        return -np.inf
+    inside = _inside(points, model, model.sigma, gradient=False, caps=caps)[0]
+    return float(np.log(model.density.at(points) * inside + model.stray).sum()) - _mass(model)
+
+
+def share_of(points: Floats, model: ExactModel, *, caps: bool = True) -> Floats:
+    """(n,) probability of each point to be none of the strays."""
+    inside = model.density.at(points) * _inside(points, model, model.sigma, gradient=False, caps=caps)[0]
+    return inside / (inside + model.stray)
+
+
+def sound(model: ExactModel) -> bool:
+    """Whether the breaks rise and every wall encloses something."""
+    breaks = model.stack.breaks
+    if not np.isfinite(model.vector).all() or not (np.diff(breaks) > 0).all():
+        return False
+    middles = (breaks[:-1] + breaks[1:]) / 2
+    return all(
+        float(wall.area(middles[j : j + 1])[0]) > 0
+        for j, run in enumerate(model.stack.runs)
+        for wall in run.walls
+    )
 
 
 def _inside(

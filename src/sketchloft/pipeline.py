@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -12,10 +12,12 @@ from sketchloft.bodies import BodiesParams, separate_bodies
 from sketchloft.cloud import MIN_POINTS, CleanCloud, Floats, PointCloud, clean
 from sketchloft.direction import Direction, DirectionParams, slicing_direction
 from sketchloft.edge_points import EdgePoints, EdgePointsParams, edge_points
-from sketchloft.errors import StageError
+from sketchloft.errors import ModelError, StageError, UsageError
 from sketchloft.exact import EXACT_STAGES, ExactBody, ExactParams, exact_body
 from sketchloft.frame import Frame, frame_along
 from sketchloft.loft import LoftParams, Section
+from sketchloft.plan.plan import Plan
+from sketchloft.planned import check_bodies, planned_body
 from sketchloft.shapes.choice import ShapesParams
 from sketchloft.shapes.recognise import recognise
 from sketchloft.slice_planes import SlicePlanes, SlicePlanesParams, slice_planes
@@ -63,6 +65,8 @@ class Params:
     edge_points : EdgePointsParams
     shapes : ShapesParams
     loft : LoftParams
+    plan : Plan, optional
+        What is kept instead of searched for, body by body, by the exact method.
     """
 
     method: Method = "exact"
@@ -74,6 +78,7 @@ class Params:
     edge_points: EdgePointsParams = field(default_factory=EdgePointsParams)
     shapes: ShapesParams = field(default_factory=ShapesParams)
     loft: LoftParams = field(default_factory=LoftParams)
+    plan: Plan | None = None
 
 
 @dataclass(frozen=True)
@@ -98,6 +103,8 @@ class BodyModel:
         Where the cloud is, in its unit.
     facts : SolidFacts
         What the checks of the solid found.
+    instead : str
+        Why the exact method, though asked for, could not model it.
     """
 
     name: str
@@ -111,6 +118,7 @@ class BodyModel:
     surface: SkinSurface
     solid: Solid
     facts: SolidFacts
+    instead: str = ""
 
 
 @dataclass(frozen=True)
@@ -148,6 +156,10 @@ def reconstruct(
 
     Raises
     ------
+    UsageError
+        If a plan is given to the paper's method.
+    InputError
+        If the plan has another number of bodies than the cloud.
     CloudError
         If the points cannot describe a solid.
     StageError
@@ -164,28 +176,45 @@ def reconstruct(
     {'circle'}
     """
     params = params or Params()
+    if params.plan is not None and params.method == "paper":
+        raise UsageError("plan: the method paper follows no plan; leave out one of them")
     progress("input")
     cleaned = clean(cloud)
     progress("bodies")
     parts = separate_bodies(cleaned.points, params.bodies)
+    if params.plan is not None:
+        check_bodies(params.plan, len(parts))
     names = [cloud.name] if len(parts) == 1 else [f"{cloud.name}-{i + 1}" for i in range(len(parts))]
     bodies = [
-        _body(name, cleaned.points[part], cleaned.centre, params, progress)
-        for name, part in zip(names, parts, strict=True)
+        _body(name, cleaned.points[part], cleaned.centre, params, progress, index=i)
+        for i, (name, part) in enumerate(zip(names, parts, strict=True))
     ]
     return Reconstruction(cleaned, params, tuple(bodies))
 
 
 def _body(
-    name: str, points: Floats, centre: Floats, params: Params, progress: Progress
+    name: str, points: Floats, centre: Floats, params: Params, progress: Progress, *, index: int
 ) -> ExactBody | BodyModel:
     if len(points) < MIN_POINTS:
         raise StageError(
             f"{name} has {len(points)} points, a body needs at least {MIN_POINTS}; ask for fewer bodies",
             stage="bodies",
         )
+    if params.plan is not None:
+        fit = params.plan.fits_sizes(index)
+        return planned_body(points, centre, params.plan.bodies[index], progress, fit=fit)
     if params.method == "exact":
-        return exact_body(name, points, centre, params.direction.axis, params.exact, progress)
+        try:
+            return exact_body(name, points, centre, params.direction.axis, params.exact, progress)
+        except (StageError, ModelError, np.linalg.LinAlgError) as error:
+            return replace(_sliced_and_lofted(name, points, centre, params, progress), instead=str(error))
+    return _sliced_and_lofted(name, points, centre, params, progress)
+
+
+def _sliced_and_lofted(
+    name: str, points: Floats, centre: Floats, params: Params, progress: Progress
+) -> BodyModel:
+    """Model a body by the paper's method."""
     progress("direction")
     middle = points.mean(axis=0)
     direction = slicing_direction(points - middle, params.direction)

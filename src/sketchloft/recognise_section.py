@@ -110,7 +110,7 @@ def _simpler(polygon: Polygon) -> Polygon:
     """Drop the corner whose triangle with its neighbours is smallest."""
     v = polygon.vertices
     before, after = np.roll(v, 1, axis=0) - v, np.roll(v, -1, axis=0) - v
-    return Polygon(np.delete(v, int(np.argmin(np.abs(np.cross(before, after)))), axis=0))
+    return Polygon(np.delete(v, int(np.argmin(np.abs(before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]))), axis=0))
 
 
 def _beside(

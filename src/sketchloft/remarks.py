@@ -35,6 +35,10 @@ def remarks(result: Reconstruction) -> tuple[str, ...]:
         prefix = f"{body.name}: " if several else ""
         if isinstance(body, ExactBody):
             continue
+        if body.instead:
+            found.append(
+                f"{prefix}the exact method gave up ({body.instead}), so the body was sliced and lofted"
+            )
         found += [prefix + text for text in (*_left_out(body), *_all_hull(body, result), *_borrowed(body))]
     return tuple(found)
 

@@ -95,4 +95,4 @@ def _outlines_like(outline: Outline) -> Iterator[Outline]:
 def _flattest(vertices: Floats) -> list[int]:
     """The corners whose triangles with their neighbours are smallest, three at most."""
     before, after = np.roll(vertices, 1, axis=0) - vertices, np.roll(vertices, -1, axis=0) - vertices
-    return [int(k) for k in np.argsort(np.abs(np.cross(before, after)))[:3]]
+    return [int(k) for k in np.argsort(np.abs(before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]))[:3]]

@@ -8,7 +8,7 @@ from sketchloft.cloud import Floats
 from sketchloft.stack import Stack, Wall
 from sketchloft.wall.lofted import Lofted
 from sketchloft.wall.profile import ArcProfile, LineProfile, SplineProfile
-from sketchloft.wall.revolved import Revolved
+from sketchloft.wall.swept import Swept
 
 __all__ = ["stack_volume"]
 
@@ -37,8 +37,8 @@ def _quadrature(wall: Wall, low: float, high: float) -> tuple[Floats, Floats]:
     """Heights and weights between two heights."""
     if isinstance(wall, Lofted):
         return _gauss(_ends(wall.knots, low, high))
-    if not isinstance(wall, Revolved):
-        return _gauss(np.array([low, high]))
+    if isinstance(wall, Swept):
+        return _gauss(np.array(_before_tip(wall, low, high)))
     match wall.profile:
         case SplineProfile(knots):
             return _gauss(_ends(knots, low, high))
@@ -55,6 +55,14 @@ def _quadrature(wall: Wall, low: float, high: float) -> tuple[Floats, Floats]:
             angle, weights = _gauss(angles, ARC_POINTS)
             return height + radius * np.sin(angle), weights * radius * np.cos(angle)
     return _gauss(np.array([low, high]))
+
+
+def _before_tip(wall: Swept, low: float, high: float) -> tuple[float, float]:
+    """The heights between which a tapered wall encloses anything."""
+    if not wall.taper:
+        return low, high
+    tip = wall.height - 1 / wall.taper
+    return (low, min(max(tip, low), high)) if wall.taper < 0 else (max(min(tip, high), low), high)
 
 
 def _ends(inner: Floats, low: float, high: float) -> Floats:

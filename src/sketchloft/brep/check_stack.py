@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from itertools import combinations
-
 import numpy as np
 from OCP.BRep import BRep_Tool
 from OCP.BRepTools import BRepTools
@@ -13,23 +11,23 @@ from OCP.TopAbs import TopAbs_State
 from OCP.TopoDS import TopoDS_Face
 
 from sketchloft.brep.check import check_closed
+from sketchloft.brep.clearance import check_walls
 from sketchloft.brep.explore import faces_of
 from sketchloft.brep.facts import SolidFacts, solid_facts
 from sketchloft.brep.kernel import CONFUSION
 from sketchloft.brep.solid import Solid
 from sketchloft.cloud import Floats
 from sketchloft.errors import ModelError
-from sketchloft.stack import Run, Stack
+from sketchloft.stack import Stack
+from sketchloft.stack_distance import distance_from_stack
 from sketchloft.stack_volume import stack_volume
 
-__all__ = ["check_stack", "check_walls"]
+__all__ = ["check_stack"]
 
 VOLUME_TOLERANCE = 1e-5
 """Largest difference between the volume of the solid and that of its sections, as a share."""
 DISTANCE_TOLERANCE = 1e-5
 """Largest distance of the solid from its walls and breaks, as a share of its size."""
-AROUND = 384
-"""Points on a wall that are looked at to tell whether it meets another one."""
 GRID = (np.arange(7) + 0.5) / 7
 
 
@@ -69,7 +67,7 @@ def check_stack(solid: Solid, stack: Stack) -> SolidFacts:
         )
     size = float(np.linalg.norm(np.ptp(facts.bounds, axis=0)))
     points = np.concatenate([_points_on(face) for face in faces_of(solid.shape)])
-    away = _distance(points, stack)
+    away = distance_from_stack(points, stack)
     worst = int(np.argmax(away))
     if away[worst] > DISTANCE_TOLERANCE * size:
         raise ModelError(
@@ -77,37 +75,6 @@ def check_stack(solid: Solid, stack: Stack) -> SolidFacts:
             f"{points[worst, 2]:.4g}; choose other breaks, or another kind of wall there"
         )
     return facts
-
-
-def check_walls(stack: Stack) -> None:
-    """Prove that no two walls of a run meet: outer ones lie apart, holes within one of them and apart.
-
-    Raises
-    ------
-    ModelError
-        If they do; the message names the run's heights.
-    """
-    for run, low, high in zip(stack.runs, stack.breaks[:-1].tolist(), stack.breaks[1:].tolist(), strict=True):
-        if len(run.walls) > 1 and not _apart(run, low, high):
-            raise ModelError(
-                f"walls meet between the heights {low:.4g} and {high:.4g}, so there is no clean section; "
-                "put a break where they start to meet, or make the hole smaller"
-            )
-
-
-def _apart(run: Run, low: float, high: float) -> bool:
-    rims = [wall.boundary(low, high, AROUND).points for wall in run.walls]
-    outer = len(rims) - run.holes
-    inside = np.zeros(len(rims))
-    for i, j in combinations(range(len(rims)), 2):
-        ahead = run.walls[i].foot(rims[j]).distance
-        back = run.walls[j].foot(rims[i]).distance
-        if ahead.min() > 0 and back.min() > 0:
-            continue
-        if not (i < outer <= j and ahead.max() < 0 and back.min() > 0):
-            return False
-        inside[j] += 1
-    return bool((inside[outer:] == 1).all())
 
 
 def _points_on(face: TopoDS_Face) -> Floats:
@@ -121,14 +88,3 @@ def _points_on(face: TopoDS_Face) -> Floats:
                 at = surface.Value(u, v)
                 found.append((at.X(), at.Y(), at.Z()))
     return np.array(found).reshape(-1, 3)
-
-
-def _distance(points: Floats, stack: Stack) -> Floats:
-    """Distance (n,) of points from the nearest break plane or wall of the run that they are in."""
-    away = np.abs(points[:, 2, None] - stack.breaks).min(axis=1)
-    index = np.clip(np.searchsorted(stack.breaks, points[:, 2]) - 1, 0, len(stack.runs) - 1)
-    for i, run in enumerate(stack.runs):
-        rows = np.flatnonzero(index == i)
-        for wall in run.walls if len(rows) else ():
-            away[rows] = np.minimum(away[rows], np.abs(wall.foot(points[rows]).distance))
-    return away

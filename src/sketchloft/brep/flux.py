@@ -73,9 +73,9 @@ def _skin(face: TopoDS_Face, surface: Geom_BSplineSurface | Geom_SweptSurface) -
 
 
 def _skin_flux_and_area(skin: SkinSurface, origin: Floats) -> tuple[float, float]:
-    extra = 0 if skin.weights is None else 4
+    extra = 0 if skin.weights is None else 6
     u, u_weights = gauss_points(skin.u_knots, (3 * skin.u_degree + 1) // 2 + extra)
-    v, v_weights = gauss_points(skin.v_knots, (3 * skin.v_degree + 1) // 2)
+    v, v_weights = gauss_points(skin.v_knots, (3 * skin.v_degree + 1) // 2 + extra)
     around, along = evaluate(skin, u, v, u_derivative=1), evaluate(skin, u, v, v_derivative=1)
     normals = np.cross(around, along)
     fluxes = np.einsum("vuk,vuk->vu", evaluate(skin, u, v) - origin, normals)

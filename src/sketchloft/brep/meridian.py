@@ -8,6 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from sketchloft.brep.greville import greville
 from sketchloft.cloud import Floats
 from sketchloft.surface import basis_matrix
 from sketchloft.wall.profile import ArcProfile, LineProfile, Profile, SplineProfile
@@ -160,7 +161,7 @@ def _through(profile: Profile | Straight, start: Floats, end: Floats) -> Profile
             p = SplineProfile.degree
             inner = knots[(knots > start[1] + 1e-9) & (knots < end[1] - 1e-9)]
             cut = np.concatenate([np.full(p + 1, start[1]), inner, np.full(p + 1, end[1])])
-            sites = np.array([cut[i + 1 : i + p + 1].mean() for i in range(len(cut) - p - 1)])
+            sites = greville(cut, p)
             # The part of a spline is one on the cut knots: as many values as poles give it back exactly.
             back = np.linalg.inv(basis_matrix(cut, p, sites))
             part: Floats = back @ basis_matrix(knots, p, sites) @ radii

@@ -10,13 +10,14 @@ from OCP.Geom import Geom_Circle, Geom_Conic, Geom_Ellipse, Geom_TrimmedCurve
 from OCP.GeomConvert import GeomConvert
 from OCP.gp import gp_Ax2, gp_Dir
 
+from sketchloft.brep.greville import greville
 from sketchloft.brep.kernel import direction, point
 from sketchloft.cloud import Floats
 from sketchloft.outline.outline import Arc, Closed, Edge, Segment
 from sketchloft.shapes.spline import ClosedSpline
 from sketchloft.surface import basis_matrix
 
-__all__ = ["Conic", "Nurbs", "conic_of", "greville", "nurbs_of"]
+__all__ = ["Conic", "Nurbs", "conic_of", "nurbs_of"]
 
 ONE_SPAN = 2.0
 """Sweep in radians up to which an arc is written as one quadratic piece; the weights stay moderate."""
@@ -107,11 +108,6 @@ def nurbs_of(edge: Edge) -> Nurbs:
     if isinstance(edge, Closed):
         poles[-1] = poles[0]
     return Nurbs(poles, weights, knots, made.Degree())
-
-
-def greville(knots: Floats, degree: int) -> Floats:
-    """Means of `degree` knots in a row: as many places as poles, where a spline is well determined."""
-    return np.array([knots[i + 1 : i + degree + 1].mean() for i in range(len(knots) - degree - 1)])
 
 
 def _cut_open(poles: Floats) -> Nurbs:

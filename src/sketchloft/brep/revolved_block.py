@@ -14,6 +14,7 @@ from OCP.TopoDS import TopoDS_Edge, TopoDS_Face, TopoDS_Vertex
 
 from sketchloft.brep.block import Block
 from sketchloft.brep.explore import faces_of
+from sketchloft.brep.greville import greville
 from sketchloft.brep.kernel import CONFUSION, bspline_curve, direction, point
 from sketchloft.brep.meridian import Piece, Straight
 from sketchloft.brep.shell_parts import CurvePart, edge, edge_against, planar_face, vertex
@@ -92,15 +93,15 @@ def _curve(piece: Piece, centre: Floats) -> CurvePart:
     match piece.profile:
         case ArcProfile(height, offset, radius, side):
             middle = np.array([offset or 0.0, height])
-            # Seen from the far side of the arc, its angles are between a quarter and three quarters of a turn.
+            # Against the side that the arc bulges to, its angles are within a quarter of a turn from pi.
             spokes = -side * (np.array([piece.start, piece.end]) - middle)
             angles = np.mod(np.arctan2(spokes[:, 1], spokes[:, 0]), 2 * np.pi)
             axes = gp_Ax2(point(half_plane_point(middle, centre)), gp_Dir(0, -1, 0), gp_Dir(-side, 0, 0))
             return CurvePart(Geom_Circle(axes, radius), float(angles[0]), float(angles[1]))
         case SplineProfile(knots, radii):
             p = SplineProfile.degree
-            heights = np.array([knots[i + 1 : i + p + 1].mean() for i in range(len(radii))])
-            poles = np.array([half_plane_point(pole, centre) for pole in np.column_stack([radii, heights])])
+            profile = np.column_stack([radii, greville(knots, p)])
+            poles = np.array([half_plane_point(pole, centre) for pole in profile])
             curve = bspline_curve(poles, None, knots, p)
             return CurvePart(curve, float(piece.start[1]), float(piece.end[1]))
     a, b = half_plane_point(piece.start, centre), half_plane_point(piece.end, centre)

@@ -23,7 +23,17 @@ from OCP.TopoDS import (
 
 from sketchloft.brep.kernel import CONFUSION, point
 
-__all__ = ["CurvePart", "edge", "edge_against", "planar_face", "solid_of", "turned_around", "vertex", "wire"]
+__all__ = [
+    "CurvePart",
+    "edge",
+    "edge_against",
+    "planar_face",
+    "point_edge",
+    "solid_of",
+    "turned_around",
+    "vertex",
+    "wire",
+]
 
 _BUILD = BRep_Builder()
 
@@ -57,6 +67,16 @@ def edge(part: CurvePart, start: TopoDS_Vertex, end: TopoDS_Vertex) -> TopoDS_Ed
 def edge_against(part: CurvePart, start: TopoDS_Vertex, end: TopoDS_Vertex) -> TopoDS_Edge:
     """Make an edge against the sense of its curve, from where the part ends to where it starts."""
     return TopoDS.Edge(edge(part, end, start).Reversed())
+
+
+def point_edge(at: TopoDS_Vertex) -> TopoDS_Edge:
+    """Make an edge that has shrunk to a vertex, to bound a face in its parameters."""
+    made = TopoDS_Edge()
+    _BUILD.MakeEdge(made)
+    _BUILD.Add(made, at.Oriented(TopAbs_Orientation.TopAbs_FORWARD))
+    _BUILD.Add(made, at.Oriented(TopAbs_Orientation.TopAbs_REVERSED))
+    _BUILD.Degenerated(made, True)
+    return made
 
 
 def wire(edges: Iterable[TopoDS_Shape]) -> TopoDS_Wire:

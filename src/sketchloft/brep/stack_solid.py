@@ -8,6 +8,7 @@ import numpy as np
 
 from sketchloft.brep.block import Block
 from sketchloft.brep.check import check_closed
+from sketchloft.brep.clearance import check_walls
 from sketchloft.brep.joined import joined
 from sketchloft.brep.meridian import Piece, Straight, meridian
 from sketchloft.brep.pieces import check_pieces
@@ -71,20 +72,21 @@ def _is_valid(solid: Solid) -> bool:
 
 def _explain(stack: Stack, groups: list[tuple[int, int]], size: float) -> None:
     """Raise what is wrong with the first run or break that makes no valid solid by itself."""
+    check_walls(stack)
     blocks = [_block(stack, *group, size) for group in groups]
     check_pieces(joined(blocks))
     for (first, last), block in zip(groups, blocks, strict=True):
         if not _is_valid(Solid(joined([block]))):
             low, high = stack.breaks[[first, last]]
             raise ModelError(
-                f"the walls between the heights {low:.4g} and {high:.4g} make no valid solid: a section there "
-                "crosses itself or another one; choose another kind of wall"
+                f"the walls between the heights {low:.4g} and {high:.4g} make no valid solid: a section "
+                "there crosses itself or another one; choose another kind of wall"
             )
     for i, (first, _) in enumerate(groups[1:], start=1):
         if not _is_valid(Solid(joined([_block(stack, *group, size) for group in groups[i - 1 : i + 1]]))):
             raise ModelError(
-                f"the runs do not join at the break at height {stack.breaks[first]:.4g}: their sections touch "
-                "in a point or a line, or nearly coincide; make them equal there, or clearly different"
+                f"the runs do not join at the break at height {stack.breaks[first]:.4g}: their sections "
+                "touch in a point or a line, or nearly coincide; make them equal there, or clearly different"
             )
 
 

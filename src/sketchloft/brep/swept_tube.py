@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from OCP.Geom import (
@@ -14,8 +14,9 @@ from OCP.Geom import (
 )
 from OCP.gp import gp_Ax3, gp_Dir
 
-from sketchloft.brep.kernel import bspline_curve, bspline_surface, direction, point
-from sketchloft.brep.outline_curve import Conic, Nurbs, conic_of, greville, nurbs_of
+from sketchloft.brep.greville import greville
+from sketchloft.brep.kernel import CONFUSION, bspline_curve, bspline_surface, direction, point
+from sketchloft.brep.outline_curve import Conic, Nurbs, conic_of, nurbs_of
 from sketchloft.brep.shell_parts import CurvePart
 from sketchloft.brep.tube import Side, Tube, tube
 from sketchloft.cloud import Floats
@@ -25,6 +26,8 @@ from sketchloft.wall.swept import Swept
 
 __all__ = ["swept_tube"]
 
+MEET = 1e-6
+"""Scale below which a tapered wall has come down to its tip."""
 EXACT = 1e-9
 """Below this, in a solid about 1 across, a movement is none."""
 TWIST_ERROR = 1e-6
@@ -57,12 +60,28 @@ class Motion:
 def swept_tube(wall: Swept, low: float, high: float) -> Tube:
     """Make the faces of a swept wall between two heights."""
     edges = wall.outline.edges()
+    low, high, tips = _span(wall, low, high)
     if wall.twist:
-        return _twisted(wall, edges, low, high)
+        return _twisted(wall, edges, (low, high), tips)
     ends = _motion(wall, np.array([low, high]))
     corners = ends.of(np.array([_start(edge) for edge in edges]))
     posts = [_line(foot, head) for foot, head in zip(*corners, strict=True)]
-    return tube([_side(edge, ends) for edge in edges], posts)
+    return tube([_without_tips(_side(edge, ends), tips) for edge in edges], posts)
+
+
+def _span(wall: Swept, low: float, high: float) -> tuple[float, float, tuple[bool, bool]]:
+    """Where the wall starts and ends, and whether it does so in its tip."""
+    scales = 1 + wall.taper * (np.array([low, high]) - wall.height)
+    is_tip = (bool(scales[0] < MEET), bool(scales[1] < MEET))
+    if not any(is_tip):
+        return low, high, is_tip
+    tip = wall.height - 1 / wall.taper
+    return (tip if is_tip[0] else low), (tip if is_tip[1] else high), is_tip
+
+
+def _without_tips(side: Side, tips: tuple[bool, bool]) -> Side:
+    """The side without those rims that are a point."""
+    return replace(side, bottom=None if tips[0] else side.bottom, top=None if tips[1] else side.top)
 
 
 def _motion(wall: Swept, heights: Floats) -> Motion:
@@ -80,15 +99,17 @@ def _start(edge: Edge) -> Floats:
 
 
 def _line(a: Floats, b: Floats) -> CurvePart:
-    return CurvePart(Geom_Line(point(a), direction(b - a)), 0.0, float(np.linalg.norm(b - a)))
+    """Straight part from a to b; in a tip, where they are one point, its direction does not matter."""
+    length = float(np.linalg.norm(b - a))
+    return CurvePart(Geom_Line(point(a), direction(b - a) if length > CONFUSION else UP), 0.0, length)
 
 
 def _side(edge: Edge, ends: Motion) -> Side:
     """The face of an edge that does not turn."""
     if isinstance(edge, Segment):
         (a, b), (c, d) = ends.of(np.array([edge.start, edge.end]))
-        normal = np.cross(b - a, c - a)
-        plane = Geom_Plane(gp_Ax3(point(a), direction(normal), direction(b - a)))
+        long = max(b - a, d - c, key=lambda rim: float(rim @ rim))
+        plane = Geom_Plane(gp_Ax3(point(a), direction(np.cross(long, c - a)), direction(long)))
         return Side(plane, (0, 1), (0, 1), _line(a, b), _line(c, d))
     if isinstance(edge, Arc) or edge.kind != "spline":
         conics = [
@@ -146,13 +167,15 @@ def _ruled(curve: Nurbs, motion: Motion, knots: Floats, degree: int) -> Side:
     return Side(bspline_surface(skin), u, v, CurvePart(rims[0], *u), CurvePart(rims[1], *u))
 
 
-def _twisted(wall: Swept, edges: tuple[Edge, ...], low: float, high: float) -> Tube:
+def _twisted(
+    wall: Swept, edges: tuple[Edge, ...], heights: tuple[float, float], tips: tuple[bool, bool]
+) -> Tube:
     reach = float(np.linalg.norm(wall.outline.boundary(64).points - wall.pivot, axis=1).max())
-    motion, knots = _twist(wall, low, high, reach)
+    motion, knots = _twist(wall, *heights, reach)
     curves = [nurbs_of(edge) for edge in edges]
     corners = motion.of(np.array([curve.poles[0] for curve in curves]))
-    posts = [CurvePart(bspline_curve(corners[:, i], None, knots, 3), low, high) for i in range(len(edges))]
-    return tube([_ruled(curve, motion, knots, 3) for curve in curves], posts)
+    posts = [CurvePart(bspline_curve(corners[:, i], None, knots, 3), *heights) for i in range(len(edges))]
+    return tube([_without_tips(_ruled(curve, motion, knots, 3), tips) for curve in curves], posts)
 
 
 def _twist(wall: Swept, low: float, high: float, reach: float) -> tuple[Motion, Floats]:

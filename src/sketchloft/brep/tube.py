@@ -6,16 +6,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from OCP.BRep import BRep_Builder
+from OCP.BRep import BRep_Builder, BRep_Tool
 from OCP.collections import Array1_double, Array1_gp_Pnt2d, Array1_int
 from OCP.Geom import Geom_Plane, Geom_Surface
 from OCP.Geom2d import Geom2d_BSplineCurve, Geom2d_Curve, Geom2d_Line
 from OCP.gp import gp_Dir2d, gp_Pnt2d
 from OCP.TopLoc import TopLoc_Location
-from OCP.TopoDS import TopoDS_Edge, TopoDS_Face, TopoDS_Shape, TopoDS_Vertex
+from OCP.TopoDS import TopoDS, TopoDS_Edge, TopoDS_Face, TopoDS_Shape, TopoDS_Vertex
 
 from sketchloft.brep.kernel import CONFUSION
-from sketchloft.brep.shell_parts import CurvePart, edge, edge_against, turned_around, vertex, wire
+from sketchloft.brep.shell_parts import CurvePart, edge, edge_against, point_edge, turned_around, vertex, wire
 
 __all__ = ["Side", "Tube", "tube"]
 
@@ -32,8 +32,8 @@ class Side:
         On a plane `u` and `v` do not matter.
     u, v : (float, float)
         From and to.
-    bottom, top : CurvePart
-        In the sense of growing u.
+    bottom, top : CurvePart or None
+        In the sense of growing u; None where the face comes down to a point.
     ahead : bool
         Whether growing u goes around the wall counter-clockwise, seen from above.
     """
@@ -41,8 +41,8 @@ class Side:
     surface: Geom_Surface
     u: tuple[float, float]
     v: tuple[float, float]
-    bottom: CurvePart
-    top: CurvePart
+    bottom: CurvePart | None
+    top: CurvePart | None
     ahead: bool = True
 
 
@@ -55,7 +55,7 @@ class Tube:
     faces : list of TopoDS_Face
         Normals away from what the wall encloses.
     bottom, top : list of TopoDS_Edge
-        Its rims, walked counter-clockwise seen from above.
+        Its rims, walked counter-clockwise seen from above; none where it comes down to a point.
     """
 
     faces: list[TopoDS_Face]
@@ -73,16 +73,22 @@ def tube(sides: Sequence[Side], uprights: Sequence[CurvePart]) -> Tube:
     uprights : sequence of CurvePart
         Rising; number i is where side i begins and the one before it ends. A single side has a seam there.
     """
-    feet = [vertex(_xyz(part, part.start)) for part in uprights]
-    heads = [vertex(_xyz(part, part.end)) for part in uprights]
-    posts = [edge(part, foot, head) for part, foot, head in zip(uprights, feet, heads, strict=True)]
     count = len(sides)
-    bottom = [_rim(side, side.bottom, feet[i], feet[(i + 1) % count]) for i, side in enumerate(sides)]
-    top = [_rim(side, side.top, heads[i], heads[(i + 1) % count]) for i, side in enumerate(sides)]
-    frames = (_Frame(bottom[i], top[i], posts[i], posts[(i + 1) % count]) for i in range(count))
-    parts = ((uprights[i], uprights[(i + 1) % count]) for i in range(count))
-    faces = [_face(side, frame, pair) for side, frame, pair in zip(sides, frames, parts, strict=True)]
-    return Tube(faces, bottom, top)
+    feet = _corners([_xyz(part, part.start) for part in uprights], sides[0].bottom is None)
+    heads = _corners([_xyz(part, part.end) for part in uprights], sides[0].top is None)
+    posts = [edge(part, foot, head) for part, foot, head in zip(uprights, feet, heads, strict=True)]
+    faces, bottom, top = [], [], []
+    for i, side in enumerate(sides):
+        j = (i + 1) % count
+        bottom.append(_rim(side, side.bottom, feet[i], feet[j]))
+        top.append(_rim(side, side.top, heads[i], heads[j]))
+        frame = _Frame(bottom[i], top[i], posts[i], posts[j])
+        faces.append(_face(side, frame, (uprights[i], uprights[j])))
+    return Tube(faces, *([rim for rim in rims if not BRep_Tool.Degenerated_s(rim)] for rims in (bottom, top)))
+
+
+def _corners(points: Sequence[list[float]], is_tip: bool) -> list[TopoDS_Vertex]:
+    return [vertex(points[0])] * len(points) if is_tip else [vertex(at) for at in points]
 
 
 @dataclass(frozen=True)
@@ -93,17 +99,22 @@ class _Frame:
     right: TopoDS_Edge
 
 
-def _rim(side: Side, part: CurvePart, start: TopoDS_Vertex, end: TopoDS_Vertex) -> TopoDS_Edge:
+def _rim(side: Side, part: CurvePart | None, start: TopoDS_Vertex, end: TopoDS_Vertex) -> TopoDS_Edge:
     """Edge of a rim, walked counter-clockwise."""
+    if part is None:
+        tip = point_edge(start)
+        return tip if side.ahead else TopoDS.Edge(tip.Reversed())
     return (edge if side.ahead else edge_against)(part, start, end)
 
 
 def _face(side: Side, frame: _Frame, uprights: tuple[CurvePart, CurvePart]) -> TopoDS_Face:
     face = TopoDS_Face()
     _BUILD.MakeFace(face, side.surface, TopLoc_Location(), CONFUSION)
-    if not isinstance(side.surface, Geom_Plane):
-        _draw(side, frame, uprights, face)
     loop: list[TopoDS_Shape] = [frame.bottom, frame.right, frame.top.Reversed(), frame.left.Reversed()]
+    if isinstance(side.surface, Geom_Plane):
+        loop = [part for part in loop if not BRep_Tool.Degenerated_s(TopoDS.Edge(part))]
+    else:
+        _draw(side, frame, uprights, face)
     if side.ahead:
         _BUILD.Add(face, wire(loop))
     else:
@@ -117,8 +128,10 @@ def _draw(side: Side, frame: _Frame, uprights: tuple[CurvePart, CurvePart], face
     (u0, u1), (v0, v1) = side.u, side.v
     left_u, right_u = (u0, u1) if side.ahead else (u1, u0)
     for rim, part, v in ((frame.bottom, side.bottom, v0), (frame.top, side.top, v1)):
-        _BUILD.UpdateEdge(rim, _straight((u0, v), (u1, v), part), face, CONFUSION)
-    left, right = uprights
+        run = (u0, u1) if part is None else (part.start, part.end)
+        _BUILD.UpdateEdge(rim, _straight((u0, v), (u1, v), run), face, CONFUSION)
+        _BUILD.Range(rim, face, *run)
+    left, right = ((part.start, part.end) for part in uprights)
     at_left = _straight((left_u, v0), (left_u, v1), left)
     at_right = _straight((right_u, v0), (right_u, v1), right)
     if frame.left.IsSame(frame.right):  # the seam: its forward use bounds the face on the right
@@ -128,16 +141,16 @@ def _draw(side: Side, frame: _Frame, uprights: tuple[CurvePart, CurvePart], face
         _BUILD.UpdateEdge(frame.right, at_right, face, CONFUSION)
 
 
-def _straight(a: tuple[float, float], b: tuple[float, float], part: CurvePart) -> Geom2d_Curve:
-    """Straight line from a to b while the parameter of a curve goes from its start to its end."""
-    run, step = part.end - part.start, np.subtract(b, a)
+def _straight(a: tuple[float, float], b: tuple[float, float], run: tuple[float, float]) -> Geom2d_Curve:
+    """Straight line from a to b while its parameter runs from the one value to the other."""
+    step = np.subtract(b, a)
     length = float(np.hypot(*step))
-    if abs(length - run) <= 1e-14 * run:
+    if abs(length - (run[1] - run[0])) <= 1e-14 * length:
         along = step / length
-        at = np.asarray(a) - part.start * along
+        at = np.asarray(a) - run[0] * along
         return Geom2d_Line(gp_Pnt2d(*at.tolist()), gp_Dir2d(*along.tolist()))
     poles, knots, counts = Array1_gp_Pnt2d(1, 2), Array1_double(1, 2), Array1_int(1, 2)
-    for i, (pole, knot) in enumerate(((a, part.start), (b, part.end)), start=1):
+    for i, (pole, knot) in enumerate(((a, run[0]), (b, run[1])), start=1):
         poles.SetValue(i, gp_Pnt2d(*pole))
         knots.SetValue(i, knot)
         counts.SetValue(i, 2)

@@ -14,11 +14,16 @@ from sketchloft.cloud import Unit
 from sketchloft.commands.console import Json, Quiet, Verbose, progress, remark, show, show_json
 from sketchloft.direction import DirectionParams, parse_axis
 from sketchloft.edge_points import EdgePointsParams, parse_probe_radius
+from sketchloft.errors import UsageError
+from sketchloft.exact import ExactParams
 from sketchloft.io import read_cloud
 from sketchloft.loft import Between, LoftParams
 from sketchloft.output import check_writable
-from sketchloft.exact import ExactParams
 from sketchloft.pipeline import EXACT_STAGES, STAGES, Method, Params, reconstruct
+from sketchloft.plan.plan import Plan
+from sketchloft.plan.read import read_plan
+from sketchloft.plan.write import write_plan
+from sketchloft.planned import plan_of
 from sketchloft.shapes.choice import ShapesParams
 from sketchloft.slice_planes import CentralAxis, SlicePlanesParams, parse_per_slice
 from sketchloft.summary import summary, summary_lines
@@ -64,6 +69,12 @@ def build(
     loft: Annotated[
         Between, Parameter(help="Straight between sections, or one smooth spline.")
     ] = LoftParams.between,
+    plan: Annotated[
+        Path | None, Parameter(help="Plan, as --save-plan writes it, to keep to instead of searching.")
+    ] = None,
+    save_plan: Annotated[
+        Path | None, Parameter(help="TOML file for all that was found, to edit and give back with --plan.")
+    ] = None,
     bodies: Annotated[str, Parameter(help="Number of bodies, or auto.")] = "auto",
     unit: Annotated[Unit, Parameter(help="Unit of the cloud's numbers, and of the model's.")] = "mm",
     report: Annotated[Path | None, Parameter(help="HTML report to write.")] = None,
@@ -82,12 +93,14 @@ def build(
         EdgePointsParams(parse_probe_radius(probe_radius)),
         ShapesParams(shapes),
         LoftParams(loft),
+        _plan(plan, save_plan, method, axis, unit),
     )
     outputs = output or [cloud.with_suffix(".step")]
     check_outputs(outputs)
     if report is not None:
         check_writable(report)
-    with progress(("read", *(EXACT_STAGES if method == "exact" else STAGES), "write", "report"), quiet=quiet, verbose=verbose) as begin:
+    stages = ("read", *(EXACT_STAGES if method == "exact" else STAGES), "write", "report")
+    with progress(stages, quiet=quiet, verbose=verbose) as begin:
         begin("read")
         points = read_cloud(cloud, unit=unit)
         result = reconstruct(points, params, begin)
@@ -99,7 +112,9 @@ def build(
             begin("report")
             write_report(result, report, unit=unit)
         write_model(outputs, solids, unit)
-    written = [str(path) for path in (*outputs, *([report] if report else []))]
+        if save_plan is not None:
+            write_plan(plan_of(result, unit), save_plan)
+    written = [str(path) for path in (*outputs, report, save_plan) if path is not None]
     figures = summary(result, unit)
     if json:
         show_json({"written": written, **figures})
@@ -110,3 +125,22 @@ def build(
     for line in summary_lines(result, unit):
         show(line)
     show("written: " + ", ".join(written))
+
+
+def _plan(plan: Path | None, save_plan: Path | None, method: Method, axis: str, unit: Unit) -> Plan | None:
+    """Read the plan, once it is clear that it can be kept to, and another one written."""
+    if method == "paper" and (plan or save_plan):
+        given = "plan" if plan else "save-plan"
+        raise UsageError(f"{given}: plans are for the method exact; leave out --{given} or --method paper")
+    if save_plan is not None:
+        if save_plan.suffix.lower() != ".toml":
+            raise UsageError(f"save-plan: found {save_plan}, expected a name that ends in .toml")
+        check_writable(save_plan)
+    if plan is None:
+        return None
+    if axis != "auto":
+        raise UsageError("axis: the plan says the direction; leave out --axis, or change it in the plan")
+    read = read_plan(plan)
+    if read.unit != unit:
+        raise UsageError(f"unit: found {unit}, but {plan} is in {read.unit}; give --unit {read.unit}")
+    return read

@@ -35,7 +35,7 @@ def ellipse_of(ring: Floats) -> Ellipse:
     """Ellipse of the contour's second moments and area."""
     area, centre = _area_and_centroid(ring)
     sizes, axes = np.linalg.eigh(_second_moments(ring, centre))
-    ratio = float(np.sqrt(sizes[1] / max(float(sizes[0]), 1e-12)))
+    ratio = float(np.sqrt(abs(sizes[1]) / max(abs(float(sizes[0])), 1e-12)))
     minor = float(np.sqrt(area / np.pi / ratio))
     return Ellipse(centre, ratio * minor, minor, float(np.arctan2(axes[1, 1], axes[0, 1])))
 
@@ -105,7 +105,8 @@ def _area_and_centroid(ring: Floats) -> tuple[float, Floats]:
     q = np.roll(p, -1, axis=0)
     cross = p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]
     area = float(cross.sum()) / 2
-    return area, middle + ((p + q) * cross[:, None]).sum(axis=0) / (6 * area)
+    safe = area if abs(area) > 1e-15 else 1e-15
+    return max(area, 1e-15), middle + ((p + q) * cross[:, None]).sum(axis=0) / (6 * safe)
 
 
 def _second_moments(ring: Floats, centre: Floats) -> Floats:

@@ -57,7 +57,7 @@ def line_arc_pieces(ring: Floats, noise: float, rounding: float, price: float) -
 
 def _sharpest(points: Floats, reach: int) -> int:
     before, after = np.roll(points, reach, axis=0) - points, np.roll(points, -reach, axis=0) - points
-    turn = np.cross(after, before) / (np.linalg.norm(before, axis=1) * np.linalg.norm(after, axis=1))
+    turn = after[:, 0] * before[:, 1] - after[:, 1] * before[:, 0]
     flat = -np.einsum("ij,ij->i", before, after)
     return int(np.argmax(np.abs(np.arctan2(turn, flat))))
 

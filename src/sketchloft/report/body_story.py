@@ -5,9 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from sketchloft.cloud import Unit
+from sketchloft.exact import ExactBody
 from sketchloft.pipeline import BodyModel, Reconstruction
 from sketchloft.report.cloud_figure import cloud_figure
 from sketchloft.report.distance_figure import distance_figure
+from sketchloft.report.exact_story import exact_story
 from sketchloft.report.loft_figure import loft_figure
 from sketchloft.report.markup import paragraph, picture, section, table
 from sketchloft.report.side_figure import side_figure
@@ -17,8 +19,10 @@ from sketchloft.report.words import axis_name, counted, direction_words, number
 __all__ = ["body_story"]
 
 
-def body_story(result: Reconstruction, body: BodyModel, unit: Unit) -> list[str]:
+def body_story(result: Reconstruction, body: ExactBody | BodyModel, unit: Unit) -> list[str]:
     """Sections of the report about one body, in the order of the stages."""
+    if isinstance(body, ExactBody):
+        return exact_story(result, body, unit)
     return [
         section("Slicing direction", *_direction(body), level=3),
         section("Slice planes", *_planes(result, body, unit), level=3),

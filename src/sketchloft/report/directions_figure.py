@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from sketchloft.cloud import Floats, Unit
 from sketchloft.direction import Direction, DirectionParams, slicing_direction
 from sketchloft.errors import UsageError
-from sketchloft.pipeline import Reconstruction
+from sketchloft.pipeline import BodyModel, Reconstruction
 from sketchloft.report.axes_style import heading
 from sketchloft.report.camera import FRONT
 from sketchloft.report.faces import CREASE, coloured_faces
@@ -48,16 +48,18 @@ def directions_figure(results: Sequence[Reconstruction], *, unit: Unit) -> Figur
     Raises
     ------
     UsageError
-        If there is none.
+        If there is none, or one is no loft.
     """
     if not results:
         raise UsageError("directions: found no reconstruction, expected one for each direction")
-    points = results[0].bodies[0].frame.to_world(results[0].bodies[0].points)
+    bodies = [result.bodies[0] for result in results if isinstance(result.bodies[0], BodyModel)]
+    if len(bodies) < len(results):
+        raise UsageError("directions: found the method exact, expected lofts; choose the method paper")
+    points = bodies[0].frame.to_world(bodies[0].points)
     judged = slicing_direction(points - points.mean(axis=0), DirectionParams())
     figure = new_figure(3.9 * len(results), 7.6)
     panels = figure.subplots(2, len(results), squeeze=False)
-    for result, (above, below) in zip(results, panels.T, strict=True):
-        body = result.bodies[0]
+    for result, body, (above, below) in zip(results, bodies, panels.T, strict=True):
         draw_sections(above, body, pose_of(result, body), FRONT)
         mesh, colours = coloured_faces(body.solid, result.cloud.centre)
         draw_mesh(below, mesh, FRONT, colour=colours, crease=CREASE, pixels=PIXELS)

@@ -11,6 +11,7 @@ import numpy as np
 
 from sketchloft import __version__
 from sketchloft.cloud import Unit
+from sketchloft.exact import ExactBody
 from sketchloft.measurement import Measurement
 from sketchloft.output import beside
 from sketchloft.pipeline import BodyModel, Reconstruction
@@ -22,6 +23,9 @@ from sketchloft.report.verdict import trust, verdict
 from sketchloft.report.words import counted, number, place
 
 __all__ = ["write_report"]
+
+COMMON = ("bodies", "direction")
+"""Stages that all methods have."""
 
 
 def write_report(
@@ -52,9 +56,11 @@ def write_report(
     -----
     The same reconstruction gives the same bytes.
     """
+    counted_parts = (
+        "runs are counted from 1" if reconstruction.params.method == "exact" else "slices are counted from 0"
+    )
     foot = (
-        f"Made by sketchloft {__version__}. Lengths in {unit}; slices are counted from 0 along the slicing "
-        "direction."
+        f"Made by sketchloft {__version__}. Lengths in {unit}; {counted_parts} along the slicing direction."
     )
     parts = list(_parts(reconstruction, unit, measurement))
     text = page(
@@ -124,22 +130,33 @@ def _bodies(result: Reconstruction, unit: Unit) -> list[str]:
     ]
 
 
-def _body_row(body: BodyModel) -> list[str]:
+def _body_row(body: ExactBody | BodyModel) -> list[str]:
     size = float(np.ptp(body.facts.bounds, axis=0).max())
     spans = [f"{place(low, size)} to {place(high, size)}" for low, high in body.facts.bounds.T.tolist()]
     return [body.name, f"{len(body.points):,}", *spans]
 
 
 def _parameters(result: Reconstruction) -> list[str]:
-    rows = [
-        [stage.replace("_", " "), name.replace("_", " "), _value(value)]
+    method = result.params.method
+    of_method = {
+        stage: values
         for stage, values in asdict(result.params).items()
-        for name, value in values.items()
-    ]
+        if stage != "method" and (stage in COMMON or (stage == "exact") == (method == "exact"))
+    }
+    rows = [["method", "method", method], *_parameter_rows(of_method)]
     return [
         paragraph("With these, the same cloud gives the same model again."),
         table(["stage", "parameter", "value"], rows, caption="Parameters of all stages.", numbers=[]),
     ]
+
+
+def _parameter_rows(stages: dict[str, dict[str, object]]) -> Iterator[list[str]]:
+    for stage, values in stages.items():
+        for name, value in values.items():
+            if isinstance(value, dict):
+                yield from _parameter_rows({name: value})
+            else:
+                yield [stage.replace("_", " "), name.replace("_", " "), _value(value)]
 
 
 def _value(value: object) -> str:

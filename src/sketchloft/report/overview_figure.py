@@ -14,6 +14,7 @@ from sketchloft.report.camera import FRONT
 from sketchloft.report.faces import CREASE, coloured_faces, face_legend, joined
 from sketchloft.report.palette import BODIES, CLOUD
 from sketchloft.report.picture import new_figure
+from sketchloft.report.pose import pose_of
 from sketchloft.report.thinning import thinned
 from sketchloft.report.view3d import draw_mesh, draw_points
 from sketchloft.report.views import finish_views
@@ -46,7 +47,8 @@ def overview_figure(result: Reconstruction, *, unit: Unit) -> Figure:
     figure = new_figure(9.5, 5.4)
     cloud, model = figure.subplots(1, 2)
     for number, body in enumerate(bodies):
-        shown = body.frame.to_world(thinned(body.points, MOST // len(bodies)))
+        pose = pose_of(result, body)
+        shown = pose.in_space(thinned(body.points, MOST // len(bodies))) + (pose.centre - result.cloud.centre)
         draw_points(cloud, shown, FRONT, colour=BODIES[number] if several else CLOUD, size=1.8, opacity=0.8)
     heading(cloud, "Cloud", counted(sum(len(body.points) for body in bodies), "point"))
     solids = [coloured_faces(body.solid, result.cloud.centre) for body in bodies]

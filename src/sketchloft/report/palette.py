@@ -42,6 +42,8 @@ FACES = {
     "ConicalSurface": "#e5ad80",
     "SphericalSurface": "#cfa9c9",
     "ToroidalSurface": "#c9cf8e",
+    "SurfaceOfRevolution": "#8fa6d6",
+    "SurfaceOfLinearExtrusion": "#c4b3a2",
 }
 """Faces by kind of surface, light enough to carry light and shadow."""
 OTHER_FACE = "#c8c8c8"

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from sketchloft.cloud import Floats, Unit
+from sketchloft.exact import ExactBody
 from sketchloft.frame import Frame
 from sketchloft.pipeline import BodyModel, Reconstruction
 from sketchloft.report.camera import Camera, axes, project
@@ -25,10 +26,13 @@ class Pose:
         With z along the slicing direction.
     centre : (3,) float array
         Origin of the body's coordinates in those of the cloud.
+    scale : float
+        Length of the body's unit in that of the cloud.
     """
 
     frame: Frame
     centre: Floats
+    scale: float = 1.0
 
     @property
     def plan(self) -> Camera:
@@ -41,17 +45,17 @@ class Pose:
         return Camera((dx, dy, dz), (x, y, z))
 
     def in_space(self, points: Floats) -> Floats:
-        """Points (..., 3) of the body in the axes of the cloud, still about its centre."""
-        return self.frame.to_world(points)
+        """Points (..., 3) of the body in the axes and unit of the cloud, still about their own origin."""
+        return self.scale * self.frame.to_world(points)
 
     def in_plan(self, points: Floats) -> Floats:
         """Points (m, 2) on a slice plane as the plan shows them, (m, 2) in the coordinates of the cloud."""
-        there = self.frame.to_world(np.c_[points, np.zeros(len(points))]) + self.centre
+        there = self.in_space(np.c_[points, np.zeros(len(points))]) + self.centre
         return project(self.plan, there)[:, :2]
 
     def height(self, heights: Floats) -> Floats:
         """Heights (...) in the body as coordinates of the cloud along the slicing direction."""
-        return np.asarray(heights + self.centre @ self.frame.direction)
+        return np.asarray(self.scale * heights + self.centre @ self.frame.direction)
 
     def height_words(self, height: float, body: BodyModel) -> str:
         """One height, as exact as the body is large."""
@@ -67,6 +71,8 @@ class Pose:
         return f"{axis_name(right)} [{unit}]", f"{axis_name(up)} [{unit}]", f"{name} [{unit}]"
 
 
-def pose_of(result: Reconstruction, body: BodyModel) -> Pose:
+def pose_of(result: Reconstruction, body: ExactBody | BodyModel) -> Pose:
     """Pose of one body of a reconstruction."""
+    if isinstance(body, ExactBody):
+        return Pose(body.frame, result.cloud.centre + body.centre, body.scale)
     return Pose(body.frame, result.cloud.centre)

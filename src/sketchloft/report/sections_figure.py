@@ -11,15 +11,14 @@ from matplotlib.patches import Circle as Disc
 from sketchloft.cloud import Floats, Unit
 from sketchloft.pipeline import BodyModel, Reconstruction
 from sketchloft.report.axes_style import heading, style_axes
+from sketchloft.report.contact_sheet import COLUMNS, contact_sheet, fit_panel
 from sketchloft.report.palette import CLOUD, EDGE, INK, PROBE
-from sketchloft.report.picture import new_figure
 from sketchloft.report.pose import Pose, pose_of
 from sketchloft.report.thinning import thinned
 from sketchloft.report.words import probe_words, shape_size
 
 __all__ = ["MOST_SLICES", "sections_figure"]
 
-COLUMNS = 4
 MOST_SLICES = 12
 MOST = 1_500
 """Worked points of a slice that are drawn; an even sample stands for more."""
@@ -47,7 +46,7 @@ def sections_figure(
     pose = pose_of(result, body)
     chosen = np.unique(np.linspace(0, len(body.sections) - 1, most).round().astype(int))
     rows = -(-len(chosen) // COLUMNS)
-    figure, panels = _sheet(rows)
+    figure, panels = contact_sheet(rows)
     for ax, index in zip(panels, chosen.tolist(), strict=False):
         _draw_slice(ax, body, index, pose, unit)
     for ax in panels[len(chosen) :]:
@@ -57,25 +56,6 @@ def sections_figure(
     with_probe = any(np.isfinite(body.edges[index].probe_radius) for index in chosen)
     figure.legend(handles=_legend(with_probe), loc="upper center", ncols=4, frameon=False, fontsize=9)
     return figure
-
-
-def _sheet(rows: int) -> tuple[Figure, list[Axes]]:
-    """Figure with square panels; placing them by hand is faster than by their texts."""
-    width, height = 11.5, 3.05 * rows + 0.75
-    left, right, bottom, top, panel = 0.7, 0.15, 0.6, 0.85, 2.35
-    across = (width - left - right - COLUMNS * panel) / (COLUMNS - 1)
-    down = (height - bottom - top - rows * panel) / max(rows - 1, 1)
-    figure = new_figure(width, height)
-    figure.set_layout_engine("none")
-    place = {
-        "left": left / width,
-        "right": 1 - right / width,
-        "bottom": bottom / height,
-        "top": 1 - top / height,
-        "wspace": across / panel,
-        "hspace": down / panel,
-    }
-    return figure, figure.subplots(rows, COLUMNS, squeeze=False, gridspec_kw=place).ravel().tolist()
 
 
 def _draw_slice(ax: Axes, body: BodyModel, index: int, pose: Pose, unit: Unit) -> None:
@@ -88,7 +68,7 @@ def _draw_slice(ax: Axes, body: BodyModel, index: int, pose: Pose, unit: Unit) -
     if np.isfinite(edge.probe_radius):
         x, y = _probe(on_edge, edge.probe_radius)
         ax.add_patch(Disc((x, y), edge.probe_radius, fill=False, color=PROBE, zorder=5))
-    _fit(ax, np.concatenate([worked, outline]))
+    fit_panel(ax, np.concatenate([worked, outline]))
     style_axes(ax)
     ax.tick_params(labelsize=7)
     ax.locator_params(nbins=3)
@@ -116,15 +96,6 @@ def _probe(ring: Floats, radius: float) -> Floats:
     at = int(np.argmax(towards))
     outward = np.array([onward[at, 1], -onward[at, 0]]) / length[at]
     return np.asarray(middle[at] + np.sqrt(max(radius**2 - (length[at] / 2) ** 2, 0.0)) * outward)
-
-
-def _fit(ax: Axes, points: Floats) -> None:
-    """Square limits that hold the points, with room for the line of text below."""
-    low, high = points.min(axis=0), points.max(axis=0)
-    middle, half = (low + high) / 2, 0.6 * float((high - low).max())
-    ax.set_xlim(middle[0] - half, middle[0] + half)
-    ax.set_ylim(middle[1] - 1.15 * half, middle[1] + half)
-    ax.set_aspect("equal")
 
 
 def _legend(with_probe: bool) -> list[Line2D]:

@@ -7,15 +7,23 @@ from collections import Counter
 import numpy as np
 
 from sketchloft.cloud import Unit
+from sketchloft.exact import ExactBody
 from sketchloft.measurement import Measurement
 from sketchloft.pipeline import BodyModel, Reconstruction
 from sketchloft.remarks import remarks
 from sketchloft.report.evidence import diagonal, slice_evidence, total_rms
+from sketchloft.report.exact_trust import CHECKS, exact_trust
 from sketchloft.report.markup import bullets, figures, paragraph, picture, table
 from sketchloft.report.overview_figure import overview_figure
 from sketchloft.report.words import FACE_WORDS, TIMES, number
 
 __all__ = ["trust", "verdict"]
+
+LOFT_CHECKS = (
+    "Checked before it was given out: one closed shell without free edges, accepted by the CAD kernel, "
+    "normals outwards, sections that do not cut themselves, a volume equal to that of the sections, and "
+    "a surface that passes through all of them."
+)
 
 
 def verdict(result: Reconstruction, unit: Unit, measurement: Measurement | None) -> str:
@@ -31,11 +39,7 @@ def verdict(result: Reconstruction, unit: Unit, measurement: Measurement | None)
         head = ["body", *_key_figures(bodies[0], unit)]
         summary = table(head, rows, caption="Key figures of every body.", numbers=[2, 3, 4])
     figured = (figures(cards) if cards else "") + summary
-    checks = (
-        "Checked before it was given out: one closed shell without free edges, accepted by the CAD kernel, "
-        "normals outwards, sections that do not cut themselves, a volume equal to that of the sections, and "
-        "a surface that passes through all of them."
-    )
+    checks = CHECKS if isinstance(bodies[0], ExactBody) else LOFT_CHECKS
     names = ", ".join(body.name for body in bodies)
     shown = picture(
         overview_figure(result, unit=unit),
@@ -49,7 +53,10 @@ def trust(result: Reconstruction, unit: Unit) -> list[str]:
     """What was left out, and how well the shapes fit the points."""
     found = remarks(result)
     said = bullets(found, "remarks") if found else paragraph("Nothing was left out on the way.")
-    rows = [_trust_row(body, unit) for body in result.bodies]
+    exact = [body for body in result.bodies if isinstance(body, ExactBody)]
+    if exact:
+        return [said, *exact_trust(exact, unit)]
+    rows = [_trust_row(body, unit) for body in result.bodies if isinstance(body, BodyModel)]
     head = [
         "body",
         "points",
@@ -75,7 +82,7 @@ def trust(result: Reconstruction, unit: Unit) -> list[str]:
     return [said, grounds, caution]
 
 
-def _key_figures(body: BodyModel, unit: Unit) -> dict[str, tuple[str, str]]:
+def _key_figures(body: ExactBody | BodyModel, unit: Unit) -> dict[str, tuple[str, str]]:
     facts = body.facts
     kinds = Counter(facts.faces).most_common()
     box = f" {TIMES} ".join(number(float(c)) for c in facts.bounds[1] - facts.bounds[0])

@@ -34,6 +34,8 @@ FACE_WORDS = {
     "ConicalSurface": "cone",
     "SphericalSurface": "sphere",
     "ToroidalSurface": "torus",
+    "SurfaceOfRevolution": "revolved",
+    "SurfaceOfLinearExtrusion": "extruded",
 }
 """What faces are called, by kind of surface."""
 

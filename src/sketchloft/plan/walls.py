@@ -1,0 +1,134 @@
+"""The fields of every kind of wall."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from sketchloft.cloud import Floats
+from sketchloft.outline.outline import Outline
+from sketchloft.plan.field import Choice, Number
+from sketchloft.plan.form import Form, form
+from sketchloft.plan.outlines import CENTRE, OUTLINES, RADIUS
+from sketchloft.ring import ring_area
+from sketchloft.stack import Wall
+from sketchloft.wall.lofted import Lofted, lofted
+from sketchloft.wall.profile import ArcProfile, LineProfile, Profile, SplineProfile
+from sketchloft.wall.revolved import Revolved
+from sketchloft.wall.swept import Freedom, Swept
+
+__all__ = ["FORMS", "kind_of"]
+
+AT = Number("height", "height", fitted="no")
+"""The height that other numbers hold at; no parameter."""
+HEIGHT = Number("height", "height")
+KNOTS = Number("knots", "knots", shape=(None,), fitted="no", least=8)
+MOVES = (
+    Number("drift", "drift", "ratio", (2,), required=False),
+    Number("taper", "taper", "per length", required=False),
+    Number("twist", "twist", "angle per length", required=False),
+)
+PLACE = (
+    Number("height", "height", fitted="no", required=False),
+    Number("pivot", "pivot", shape=(2,), fitted="no", required=False),
+)
+
+
+def _revolved(described: Form) -> Form:
+    """Put the centre before the fields of a profile."""
+
+    def make(values: dict[str, Any]) -> Revolved:
+        return Revolved(values["centre"], described.make(values))
+
+    def read(wall: Revolved) -> dict[str, Any]:
+        return {"centre": wall.centre, **described.read(wall.profile)}
+
+    return Form((CENTRE, *described.fields), read, make)
+
+
+def _cylinder(radius: float) -> Profile:
+    return LineProfile(0.0, radius, None)
+
+
+def _cone(radius: float, height: float, slope: float | None = None) -> Profile:
+    return LineProfile(height, radius, slope)
+
+
+def _sphere(height: float, radius: float) -> Profile:
+    return ArcProfile(height, None, radius)
+
+
+def _spline(knots: Floats, radii: Floats) -> Profile:
+    _check_knots(knots, len(radii), "radii")
+    return SplineProfile(knots, radii)
+
+
+def _loft(poles: Floats, knots: Floats) -> Lofted:
+    _check_knots(knots, len(poles), "rings of poles")
+    for ring in poles:
+        _check_turn(ring, "poles")
+    return lofted(poles, knots)
+
+
+def _swept(described: Form) -> Form:
+    """Put the movement along the heights behind the fields of an outline."""
+
+    def make(values: dict[str, Any]) -> Swept:
+        outline = described.make(values)
+        ring = outline.boundary(64)
+        _check_turn(ring.points, "points")
+        free: tuple[Freedom, ...] = tuple(f for f in ("drift", "taper", "twist") if f in values)
+        moves = {name: values[name] for name in free}
+        pivot = values.get("pivot", ring.lengths @ ring.points / ring.lengths.sum())
+        return Swept(
+            outline, values.get("height", 0.0), pivot, moves.pop("drift", np.zeros(2)), **moves, free=free
+        )
+
+    def read(wall: Swept) -> dict[str, Any]:
+        outline: Outline = wall.outline
+        moves = {f: getattr(wall, f) for f in ("drift", "taper", "twist")}
+        moves = {f: value for f, value in moves.items() if f in wall.free or np.any(value)}
+        turned = "taper" in moves or "twist" in moves
+        place = {"height": wall.height if moves else None, "pivot": wall.pivot if turned else None}
+        return {**described.read(outline), **place, **moves}
+
+    return Form((*described.fields, *PLACE, *MOVES), read, make)
+
+
+def _check_turn(ring: Floats, what: str) -> None:
+    if ring_area(ring) <= 0:
+        raise ValueError(f"found {what} that run clockwise, or enclose nothing; list them counter-clockwise")
+
+
+def _check_knots(knots: Floats, count: int, what: str) -> None:
+    if len(knots) != count + 4:
+        raise ValueError(f"found {len(knots)} knots and {count} {what}, expected 4 knots more than {what}")
+    clamped = (knots[:4] == knots[0]).all() and (knots[-4:] == knots[-1]).all()
+    if not clamped or (np.diff(knots[3:-3]) <= 0).any():
+        raise ValueError("found knots that do not rise, expected the first and the last one four times each")
+
+
+FORMS: dict[str, Form] = {
+    "cylinder": _revolved(form(_cylinder, RADIUS)),
+    "cone": _revolved(form(_cone, RADIUS, Number("slope", "slope", "ratio", required=False), AT)),
+    "sphere": _revolved(form(_sphere, HEIGHT, RADIUS)),
+    "torus": _revolved(
+        form(
+            ArcProfile,
+            HEIGHT,
+            Number("minor_radius", "radius", sign="positive"),
+            Number("major_radius", "offset"),
+            Choice("side", "side", {"outer": 1, "inner": -1}),
+        )
+    ),
+    "spline revolve": _revolved(form(_spline, KNOTS, Number("radii", "radii", shape=(None,), least=4))),
+    "loft": form(_loft, KNOTS, Number("poles", "poles", shape=(None, None, 2), fitted="across", least=4)),
+    **{kind: _swept(outline) for kind, outline in OUTLINES.items()},
+}
+"""By the wall's kind; a swept wall's is that of its outline."""
+
+
+def kind_of(wall: Wall) -> str:
+    """Key of `FORMS` for a wall."""
+    return wall.outline.kind if isinstance(wall, Swept) else wall.kind

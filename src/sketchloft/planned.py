@@ -1,0 +1,147 @@
+"""Planned: a body made as a plan says, its numbers kept or fitted to the points once more."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from sketchloft.cloud import Floats, Unit
+from sketchloft.dispersion import dispersion
+from sketchloft.errors import InputError
+from sketchloft.exact import ROOM, ExactBody
+from sketchloft.exact_fit import sharpened
+from sketchloft.exact_model import Density, ExactModel
+from sketchloft.fit import climb, fit_density
+from sketchloft.inside_density import inside_density
+from sketchloft.level_set import level_set
+from sketchloft.likelihood import beside_walls
+from sketchloft.plan.from_model import planned_from_model
+from sketchloft.plan.plan import Plan, PlannedBody
+from sketchloft.plan.to_model import model_from_plan
+from sketchloft.stack_volume import stack_volume
+
+if TYPE_CHECKING:
+    from sketchloft.pipeline import Reconstruction
+
+__all__ = ["check_bodies", "plan_of", "planned_body", "planned_model"]
+
+NOISES = (0.02, 0.006)
+"""Noise that the fit begins with, as shares of the size: the first as far as a person's edit may reach."""
+BESIDE = 8.0
+"""Noise deviations from the walls within which points decide."""
+
+
+def plan_of(result: Reconstruction, unit: Unit) -> Plan:
+    """Plan of what the exact method found.
+
+    Parameters
+    ----------
+    result : Reconstruction
+    unit : {"mm", "cm", "m", "in"}
+        Of the cloud.
+    """
+    return Plan(
+        unit,
+        "nothing",
+        tuple(
+            planned_from_model(
+                body.name, body.model, body.frame, result.cloud.centre + body.centre, body.scale
+            )
+            for body in result.bodies
+            if isinstance(body, ExactBody)
+        ),
+    )
+
+
+def check_bodies(plan: Plan, count: int) -> None:
+    """Find out whether a plan has as many bodies as the cloud.
+
+    Raises
+    ------
+    InputError
+        If not.
+    """
+    if len(plan.bodies) != count:
+        raise InputError(
+            f"the plan has {len(plan.bodies)} bodies, the cloud is separated into {count}; ask for "
+            "as many bodies as the plan has, or give the cloud that it was made from"
+        )
+
+
+def planned_body(
+    points: Floats, origin: Floats, plan: PlannedBody, progress: Callable[[str], None], *, fit: bool
+) -> ExactBody:
+    """Model a body as a plan says.
+
+    Parameters
+    ----------
+    points : (n, 3) float array
+        About `origin`.
+    origin : (3,) float array
+    plan : PlannedBody
+    progress : callable
+        Called with the name of each stage when it begins.
+    fit : bool
+        Whether the numbers are fitted to the points; the direction, the kinds, the joins and what is shared
+        are kept in any case.
+
+    Raises
+    ------
+    ModelError
+        If the solid fails a check.
+    """
+    progress("fit")
+    low, high = np.quantile(points, [0.004, 0.996], axis=0)
+    scale, centre, frame = float(np.linalg.norm(high - low)), plan.centre - origin, plan.frame
+    local = frame.to_local((points - centre) / scale)
+    model = planned_model(local, plan, scale)
+    if fit:
+        model = _refitted(local, model)
+    progress("solid")
+    from sketchloft.brep.build_stack import built_stack  # noqa: PLC0415  the kernel takes most of a second
+
+    solid, facts = built_stack(model.stack, plan.centre, frame.axes, scale)
+    return ExactBody(
+        name=plan.name,
+        points=local,
+        vector=frame.direction,
+        candidates=(),
+        frame=frame,
+        centre=centre,
+        scale=scale,
+        cuts=model.stack.breaks,
+        first=model,
+        model=model,
+        solid=solid,
+        facts=facts,
+    )
+
+
+def planned_model(points: Floats, plan: PlannedBody, scale: float) -> ExactModel:
+    """Model of a plan, all numbers as they are written.
+
+    Parameters
+    ----------
+    points : (n, 3) float array
+        In the frame of the plan, in a unit of this size; they say how dense they are.
+    plan : PlannedBody
+    scale : float
+    """
+    space = ROOM * float(np.prod(np.ptp(points, axis=0)))
+    model = model_from_plan(plan, scale, stray=1 / space, space=space)
+    inside = np.log(len(points) / max(stack_volume(model.stack), 1e-9))
+    return replace(model, density=Density(np.array([inside])))
+
+
+def _refitted(points: Floats, model: ExactModel) -> ExactModel:
+    grid = level_set(points)
+    model = replace(model, density=inside_density(points, grid, dispersion(points, grid)))
+    for noise in NOISES:
+        model = fit_density(points, replace(model, sigma=noise), 2)
+        near = beside_walls(points, model, BESIDE * noise)
+        model, _, _ = climb(points[near], model, 10)
+    model, _, _ = sharpened(points, fit_density(points, model, 2), tilt=False)
+    return model

@@ -31,8 +31,9 @@ format: $(READY) ## put the code into its format
 	$(BIN)/ruff format .
 	$(BIN)/ruff check --fix .
 
-bench: $(READY) ## times of every stage at 10^4, 10^5 and 10^6 points
+bench: $(READY) ## times of every stage at 10^4, 10^5 and 10^6 points; error and time beside other methods
 	$(BIN)/python benchmarks/stages.py
+	$(BIN)/python benchmarks/peers.py
 
 docs-pictures: $(READY) ## every picture in the README and the docs
 	$(BIN)/python docs/pictures.py

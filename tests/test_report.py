@@ -24,6 +24,7 @@ from sketchloft.errors import OutputError, UsageError
 from sketchloft.frame import Frame
 from sketchloft.measurement import Measurement, measure
 from sketchloft.mesh import Mesh
+from sketchloft.pipeline import BodyModel
 from sketchloft.report.cloud_figure import cloud_figure
 from sketchloft.report.directions_figure import directions_figure
 from sketchloft.report.distance_figure import distance_figure
@@ -73,6 +74,13 @@ def coarse() -> Iterator[None]:
 
 def lofted(name: str, n: int, axis: tuple[float, float, float]) -> Reconstruction:
     return reconstruct(sample_goal(GOALS[name], n, seed=1), Params("paper", direction=DirectionParams(axis)))
+
+
+def only(result: Reconstruction) -> BodyModel:
+    """The one body of a reconstruction by the method paper."""
+    (body,) = result.bodies
+    assert isinstance(body, BodyModel)
+    return body
 
 
 @pytest.fixture(scope="module")
@@ -208,7 +216,7 @@ def test_names_are_escaped(page: bytes) -> None:
 
 
 def test_key_figures_are_there(page: bytes, shaft: Reconstruction, measured: Measurement) -> None:
-    found, (body,) = Page(page), shaft.bodies
+    found, body = Page(page), only(shaft)
     assert "Valid solid" in found.text
     for figure in (
         f"{number(body.facts.volume, 5)} mm³",
@@ -226,7 +234,7 @@ def test_key_figures_are_there(page: bytes, shaft: Reconstruction, measured: Mea
 
 
 def test_every_slice_candidate_and_parameter_has_a_row(page: bytes, shaft: Reconstruction) -> None:
-    rows, (body,) = Page(page).rows, shaft.bodies
+    rows, body = Page(page).rows, only(shaft)
     slices = [row for row in rows if len(row) == 10 and row[0] != "slice"]
     assert [row[0].lstrip("• ") for row in slices] == [str(i) for i in range(len(body.sections))]
     assert [int(row[2].replace(",", "")) for row in slices] == [len(one.points) for one in body.worked]
@@ -282,12 +290,12 @@ def test_nothing_half_written(shaft: Reconstruction, tmp_path: Path, monkeypatch
     ("draw", "colours"),
     [
         (lambda r: overview_figure(r, unit="mm"), [FACES["Plane"]]),
-        (lambda r: cloud_figure(r, r.bodies[0], unit="mm"), [CLOUD, EDGE]),
-        (lambda r: distance_figure(r, r.bodies[0], unit="mm"), []),
-        (lambda r: side_figure(r, r.bodies[0], unit="mm"), [CLOUD, EDGE]),
-        (lambda r: sections_figure(r, r.bodies[0], unit="mm"), [EDGE]),
-        (lambda r: loft_figure(r, r.bodies[0], unit="mm"), [CURVES["circle"], FACES["Plane"]]),
-        (lambda r: evidence_figure(r.bodies[0], unit="mm"), [EDGE, CURVES["circle"]]),
+        (lambda r: cloud_figure(r, only(r), unit="mm"), [CLOUD, EDGE]),
+        (lambda r: distance_figure(r, only(r), unit="mm"), []),
+        (lambda r: side_figure(r, only(r), unit="mm"), [CLOUD, EDGE]),
+        (lambda r: sections_figure(r, only(r), unit="mm"), [EDGE]),
+        (lambda r: loft_figure(r, only(r), unit="mm"), [CURVES["circle"], FACES["Plane"]]),
+        (lambda r: evidence_figure(only(r), unit="mm"), [EDGE, CURVES["circle"]]),
     ],
     ids=["overview", "cloud", "distance", "side", "sections", "loft", "evidence"],
 )
@@ -306,7 +314,7 @@ def test_overview_tells_bodies_apart(pair: Reconstruction) -> None:
 
 
 def test_distance_figure_marks_every_plane(shaft: Reconstruction) -> None:
-    (body,) = shaft.bodies
+    body = only(shaft)
     ax = distance_figure(shaft, body, unit="mm").axes[0]
     assert ax.get_xlabel() == "z [mm]"
     assert ax.get_ylabel() == "distance to the central axis [mm]"
@@ -316,7 +324,7 @@ def test_distance_figure_marks_every_plane(shaft: Reconstruction) -> None:
 
 
 def test_contact_sheet_names_each_slice(ell: Reconstruction) -> None:
-    (body,) = ell.bodies
+    body = only(ell)
     figure = sections_figure(ell, body, unit="mm", most=5)
     titles = [ax.get_title().strip() for ax in figure.axes if ax.axison]
     assert len(titles) == 5
@@ -325,7 +333,7 @@ def test_contact_sheet_names_each_slice(ell: Reconstruction) -> None:
 
 
 def test_probe_rests_on_two_edge_points(ell: Reconstruction) -> None:
-    (body,) = ell.bodies
+    body = only(ell)
     figure = sections_figure(ell, body, unit="mm", most=1)
     ball, edge = figure.axes[0].patches[0], body.edges[0]
     distance = np.linalg.norm(pose_of(ell, body).in_plan(edge.points) - ball.center, axis=1)  # type: ignore[attr-defined]
@@ -347,7 +355,7 @@ def test_directions_side_by_side(ell: Reconstruction) -> None:
 
 
 def test_faces_have_the_colour_of_their_kind(shaft: Reconstruction) -> None:
-    (body,) = shaft.bodies
+    body = only(shaft)
     mesh, colours = coloured_faces(body.solid, shaft.cloud.centre)
     assert mesh.volume == pytest.approx(body.facts.volume, rel=0.01)
     first, last = (
@@ -366,7 +374,7 @@ def test_faces_have_the_colour_of_their_kind(shaft: Reconstruction) -> None:
 
 
 def test_evidence_of_a_slice(shaft: Reconstruction) -> None:
-    (body,) = shaft.bodies
+    body = only(shaft)
     slices = slice_evidence(body)
     one, shape = slices[3], body.sections[3].shape
     distance = shape.distance(body.edges[3].points)

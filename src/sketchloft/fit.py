@@ -15,6 +15,8 @@ __all__ = ["climb", "fit_density", "log_likelihood"]
 
 STRAY_MOST = 0.2
 """Largest share of strays."""
+MOST_CHANGE = 0.5
+"""Largest change of the logarithm of the density in one round, lest it run away with a shrinking model."""
 STRIDE = 3.0
 """How far a single parameter may move a wall in one step, in noise deviations."""
 
@@ -163,7 +165,8 @@ def fit_density(points: Floats, model: ExactModel, rounds: int = 3, *, caps: boo
         share = share_of(points, model, caps=caps)
         coefficients = model.density.coefficients.copy()
         mass = max(float(np.exp(np.clip(nodes @ coefficients, -50, 50)) @ volumes), 1e-12)
-        coefficients[0] += np.log(max(float(share.sum()), 1.0) / mass)
+        change = np.log(max(float(share.sum()), 1.0) / mass)
+        coefficients[0] += float(np.clip(change, -MOST_CHANGE, MOST_CHANGE))
         for _ in range(0 if count == 1 else 4):
             rate = np.exp(np.clip(nodes @ coefficients, -50, 50)) * volumes
             score = share @ terms - rate @ nodes

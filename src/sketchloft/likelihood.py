@@ -95,12 +95,11 @@ def sound(model: ExactModel) -> bool:
     breaks = model.stack.breaks
     if not np.isfinite(model.vector).all() or not (np.diff(breaks) > 0).all():
         return False
-    middles = (breaks[:-1] + breaks[1:]) / 2
-    return all(
-        float(wall.area(middles[j : j + 1])[0]) > 0
-        for j, run in enumerate(model.stack.runs)
-        for wall in run.walls
-    )
+    for j, run in enumerate(model.stack.runs):
+        at = np.linspace(breaks[j], breaks[j + 1], 7)[1:-1]
+        if any((wall.area(at) <= 0).any() for wall in run.walls):
+            return False
+    return True
 
 
 def _inside(

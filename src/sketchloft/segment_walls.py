@@ -15,6 +15,7 @@ from sketchloft.recognise_section import SectionShape, recognise_section
 from sketchloft.section_contours import Plan, plan_of
 from sketchloft.stack import Run, Stack, Wall
 from sketchloft.surface import basis_matrix
+from sketchloft.twist import twist_of, untwisted
 from sketchloft.wall.profile import ArcProfile, LineProfile, SplineProfile
 from sketchloft.wall.revolved import Revolved
 from sketchloft.wall.swept import Freedom, Swept
@@ -55,13 +56,16 @@ def segment_run(
         Its noise.
     """
     plan = plan_of(points, together)
+    twist = twist_of(plan, points[:, 2] - plan.height)
+    if twist:
+        plan = untwisted(plan, points[:, 2] - plan.height, twist)
     shape = recognise_section(plan.points, together)
     if shape is None:
         return None
     if len(points) > MOST_POINTS:
         points = points[:: len(points) // MOST_POINTS + 1]
     best: tuple[float, ExactModel] | None = None
-    for run in _runs(plan, shape, ends):
+    for run in _runs(plan, shape, ends, twist):
         model = _fitted(points, run, ends, sigma, density)
         value = log_likelihood(points, model, caps=False) / together - evidence_price(
             model.size, len(points), together
@@ -91,10 +95,12 @@ def _fitted(
     return fit_density(points, model, 2, caps=False)
 
 
-def _runs(plan: Plan, shape: SectionShape, ends: tuple[float, float]) -> list[Run]:
+def _runs(
+    plan: Plan, shape: SectionShape, ends: tuple[float, float], twist: float
+) -> list[Run]:
     """Ways in which the section may go along the segment, the simplest first."""
     changing = bool(np.any(plan.growth[1:]))
-    options = [_walls(plan, outline, ends, changing=changing) for outline in shape.outlines]
+    options = [_walls(plan, outline, ends, twist, changing=changing) for outline in shape.outlines]
     count = max(len(option) for option in options)
     return [
         Run(tuple(option[min(k, len(option) - 1)] for option in options), shape.holes)
@@ -102,7 +108,9 @@ def _runs(plan: Plan, shape: SectionShape, ends: tuple[float, float]) -> list[Ru
     ]
 
 
-def _walls(plan: Plan, outline: Outline, ends: tuple[float, float], *, changing: bool) -> list[Wall]:
+def _walls(
+    plan: Plan, outline: Outline, ends: tuple[float, float], twist: float, *, changing: bool
+) -> list[Wall]:
     slanted = bool(np.any(plan.drift))
     _, first, _ = plan.growth
     if isinstance(outline, Circle) and not slanted:
@@ -110,7 +118,9 @@ def _walls(plan: Plan, outline: Outline, ends: tuple[float, float], *, changing:
 
     def swept(*free: Freedom, taper: float = 0.0) -> Swept:
         drift = plan.drift if "drift" in free else np.zeros(2)
-        return Swept(outline, plan.height, plan.centre, drift, taper, 0.0, free)
+        if twist:
+            free = (*free, "twist")
+        return Swept(outline, plan.height, plan.centre, drift, taper, twist, free)
 
     walls: list[Wall] = [swept()]
     if slanted:

@@ -20,7 +20,7 @@ from sketchloft.report.pose import Pose, pose_of
 from sketchloft.report.thinning import thinned
 from sketchloft.report.view3d import draw_points
 from sketchloft.report.views import finish_views
-from sketchloft.report.words import counted
+from sketchloft.report.words import axis_name, counted
 
 __all__ = ["cuts_figure", "likely_strays"]
 
@@ -62,7 +62,7 @@ def cuts_figure(result: Reconstruction, body: ExactBody, *, unit: Unit) -> Figur
         ax.set_xlabel(f"across, from the middle [{unit}]")
         ax.locator_params(nbins=7)
         heading(ax, name, f"{100 * SLAB:g} % of the size thick, and the cut through the model")
-    cuts[0].set_ylabel(pose.labels(unit)[2])
+    cuts[0].set_ylabel(f"{axis_name(pose.frame.direction) or 'height'} [{unit}]")
     _legend(figure, cuts)
     return figure
 

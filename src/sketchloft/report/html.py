@@ -24,8 +24,11 @@ from sketchloft.report.words import counted, number, place
 
 __all__ = ["write_report"]
 
-COMMON = ("bodies", "direction")
-"""Stages that all methods have."""
+STAGES_OF = {
+    "exact": ("bodies", "direction", "exact"),
+    "paper": ("bodies", "direction", "slice_planes", "work_points", "edge_points", "shapes", "loft"),
+}
+"""Stages that have parameters, by method."""
 
 
 def write_report(
@@ -137,13 +140,9 @@ def _body_row(body: ExactBody | BodyModel) -> list[str]:
 
 
 def _parameters(result: Reconstruction) -> list[str]:
-    method = result.params.method
-    of_method = {
-        stage: values
-        for stage, values in asdict(result.params).items()
-        if stage != "method" and (stage in COMMON or (stage == "exact") == (method == "exact"))
-    }
-    rows = [["method", "method", method], *_parameter_rows(of_method)]
+    params = result.params
+    stages = {stage: asdict(getattr(params, stage)) for stage in STAGES_OF[params.method]}
+    rows = [["method", "method", params.method], *_parameter_rows(stages)]
     return [
         paragraph("With these, the same cloud gives the same model again."),
         table(["stage", "parameter", "value"], rows, caption="Parameters of all stages.", numbers=[]),

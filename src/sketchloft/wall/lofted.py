@@ -85,14 +85,24 @@ class Lofted:
         steep = np.einsum("ni,ijd->njd", basis_matrix(self.knots, self.degree, z, 1), self.poles)
         slope = -np.einsum("ij,ij->i", across, _ring_at(steep, u, count, 0))
         c = 1 / np.hypot(1.0, slope)
-        columns, values = _local(u, count, 0)
-        weight = np.zeros((len(z), count))
-        np.add.at(weight, (np.arange(len(z))[:, None], columns), values)
-        lean = np.einsum("nd,ijd->nij", across, self.normals)
-        gradient = -(c[:, None, None] * along[:, :, None] * weight[:, None, :] * lean).reshape(len(z), -1)
+        gradient = self._gradient(z, u, across) * -c[:, None]
         bend = (d1[:, 0] * d2[:, 1] - d1[:, 1] * d2[:, 0]) / speed**3
         normal = np.column_stack([across, slope]) * c[:, None]
         return WallFoot(c * side * flat, normal, gradient, c * bend)
+
+    def _gradient(self, z: Floats, u: Floats, across: Floats) -> Floats:
+        """Movement (n, p) of the wall across itself by each pole's displacement; 16 poles matter."""
+        rows, count = self.poles.shape[:2]
+        span = np.clip(np.searchsorted(self.knots, z, side="right") - 4, 0, rows - 4)
+        i = span[:, None] + np.arange(4)
+        along = np.take_along_axis(basis_matrix(self.knots, self.degree, z), i, axis=1)
+        j, around = _local(u, count, 0)
+        lean = np.einsum("nijd,nd->nij", self.normals[i[:, :, None], j[:, None, :]], across)
+        place = (i[:, :, None] * count + j[:, None, :]).reshape(len(z), -1)
+        gradient = np.zeros((len(z), rows * count))
+        values = (along[:, :, None] * around[:, None, :] * lean).reshape(len(z), -1)
+        np.put_along_axis(gradient, place, values, axis=1)
+        return gradient
 
     def _nearest(self, xy: Floats, z: Floats) -> Floats:
         """Parameter (n,) of the sample nearest to each point, on the section of a height close by."""

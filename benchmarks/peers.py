@@ -111,7 +111,7 @@ def sketchloft_outcome(task: Task) -> Outcome:
     said, seconds, busy = _timed(*build)
     faces = sum(sum(body["faces"].values()) for body in json.loads(said)["bodies"])
     there, back = _errors(load_mesh(model, CHORD), task.goal)
-    return Outcome(there, back, f"{faces} faces", seconds, busy)
+    return Outcome(there, back, f"{faces} face{'s' * (faces != 1)}", seconds, busy)
 
 
 def peer_outcome(mesher: Mesher, task: Task) -> Outcome:

@@ -5,7 +5,7 @@ PLY file, builds the solid and writes it as STEP. Each stage ends when the next 
 and use every module once before they are timed, so that the table shows the work alone; what a command
 takes as a whole, with loading, stands below it.
 
-    python benchmarks/stages.py [--goal lamp] [--sizes 10000,100000,1000000]
+    python benchmarks/stages.py [--goal lamp] [--sizes 10000,100000,1000000] [--method exact]
 """
 
 from __future__ import annotations
@@ -23,12 +23,16 @@ import time
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from sketchloft.pipeline import Method
 
 # Sketchloft is imported in the processes that are timed: memory that this one holds would count as theirs.
 
 __all__ = ["Timing", "table", "timed"]
 
-GOAL, SIZES = "lamp", "10000,100000,1000000"
+GOAL, SIZES, METHOD = "lamp", "10000,100000,1000000", "exact"
 SEED = 1
 WARM_UP = 2_000
 """Points of the cloud that loads all modules."""
@@ -70,12 +74,12 @@ def draw(goal: str, points: int, cloud: Path) -> None:
     write_cloud(cloud, sample_goal(GOALS[goal], points, seed=SEED))
 
 
-def timed(cloud: Path, warm_up: Path | None = None) -> Timing:
+def timed(method: Method, cloud: Path, warm_up: Path | None = None) -> Timing:
     """Time every stage from a cloud's file to a STEP file beside it, after a warm-up with another cloud."""
-    from sketchloft import NamedSolid, read_cloud, reconstruct, write_model  # noqa: PLC0415
+    from sketchloft import NamedSolid, Params, read_cloud, reconstruct, write_model  # noqa: PLC0415
 
     if warm_up is not None:
-        timed(warm_up)
+        timed(method, warm_up)
     before = _peak_memory()
     marks: list[tuple[str, float]] = []
 
@@ -84,7 +88,7 @@ def timed(cloud: Path, warm_up: Path | None = None) -> Timing:
 
     begin("read")
     points = read_cloud(cloud)
-    result = reconstruct(points, progress=begin)
+    result = reconstruct(points, Params(method=method), begin)
     begin("write")
     write_model(cloud.with_suffix(".step"), [NamedSolid(body.name, body.solid) for body in result.bodies])
     begin("end")
@@ -96,7 +100,8 @@ def timed(cloud: Path, warm_up: Path | None = None) -> Timing:
 
 def table(timings: list[Timing]) -> str:
     """Lay out seconds by stage and size, with the factor from size to size and the exponent of growth."""
-    rows = {stage: [one.seconds[stage] for one in timings] for stage in timings[0].seconds}
+    stages = dict.fromkeys(stage for one in timings for stage in one.seconds)
+    rows = {stage: [one.seconds.get(stage, 0.0) for one in timings] for stage in stages}
     rows["total"] = [one.total for one in timings]
     sizes = [one.points for one in timings]
     head = [f"{size:,}" for size in sizes] + [f"x{b / a:g}" for a, b in itertools.pairwise(sizes)]
@@ -141,7 +146,7 @@ def command_seconds(*arguments: str) -> float:
     return statistics.median(once() for _ in range(REPEATS))
 
 
-def main(goal: str, sizes: list[int]) -> None:
+def main(goal: str, sizes: list[int], method: Method) -> None:
     """Run the benchmark and print it."""
     fresh = multiprocessing.get_context("spawn")
     timings = []
@@ -153,12 +158,14 @@ def main(goal: str, sizes: list[int]) -> None:
         for size, cloud in clouds.items():
             pool.submit(draw, goal, size, cloud).result()
         for size in sizes:
-            timings.append(pool.submit(timed, clouds[size], clouds[WARM_UP]).result())
-            print(f"{goal}, {size:,} points: {timings[-1].total:.2f} s", file=sys.stderr, flush=True)
+            timings.append(pool.submit(timed, method, clouds[size], clouds[WARM_UP]).result())
+            said = f"{goal}, {method}, {size:,} points: {timings[-1].total:.2f} s"
+            print(said, file=sys.stderr, flush=True)
         print(table(timings))
         print(f"\nwhole commands, median of {REPEATS}:")
         print(f"  sketchloft --help                 {command_seconds('--help'):6.2f} s")
-        built = command_seconds("build", str(clouds[sizes[0]]), "-o", str(Path(folder) / "model.step"))
+        model = str(Path(folder) / "model.step")
+        built = command_seconds("build", str(clouds[sizes[0]]), "-o", model, "--method", method)
         print(f"  sketchloft build, {sizes[0]:>7,} points {built:8.2f} s")
 
 
@@ -168,5 +175,6 @@ if __name__ == "__main__":
     )
     parser.add_argument("--goal", default=GOAL, help="[default: %(default)s]")
     parser.add_argument("--sizes", default=SIZES, help="[default: %(default)s]")
+    parser.add_argument("--method", default=METHOD, help="exact or paper [default: %(default)s]")
     asked = parser.parse_args()
-    main(asked.goal, [int(size) for size in asked.sizes.split(",")])
+    main(asked.goal, [int(size) for size in asked.sizes.split(",")], asked.method)

@@ -9,13 +9,13 @@ from matplotlib.axes import Axes
 from matplotlib.colors import to_rgb
 from matplotlib.patches import FancyArrowPatch
 
-from sketchloft import Reconstruction
 from sketchloft.report.camera import Camera, project
 from sketchloft.report.faces import coloured_faces
 from sketchloft.report.palette import CLOUD, CURVES, INK, MUTED
 from sketchloft.report.picture import new_figure, save_figure
 from sketchloft.report.pose import pose_of
 from sketchloft.report.view3d import draw_mesh, draw_points
+from trial import Trial
 
 __all__ = ["draw_hero"]
 
@@ -29,9 +29,9 @@ PAPER = 0.84
 """How white the slices are, from 0 (in the colour of their contour) to 1."""
 
 
-def draw_hero(result: Reconstruction, path: Path) -> Path:
-    """Write the first body's cloud, slices and solid side by side as PNG and return its path."""
-    body = result.bodies[0]
+def draw_hero(one: Trial, path: Path) -> Path:
+    """Write the cloud, slices and solid side by side as PNG and return its path."""
+    result, body = one.result, one.lofted
     points = pose_of(result, body).in_space(body.points)
     flat = project(CAMERA, points)[:, :2]
     margin = MARGIN * np.ptp(flat, axis=0)
@@ -49,7 +49,7 @@ def draw_hero(result: Reconstruction, path: Path) -> Path:
             draw_points(ax, points, CAMERA, colour=CLOUD, size=1.5, opacity=0.8, haze=0.6)
         elif i == 1:
             draw_points(ax, points, CAMERA, colour=CLOUD, size=1.2, opacity=0.25, haze=0.6)
-            _draw_slices(ax, result)
+            _draw_slices(ax, one)
         else:
             mesh, colours = coloured_faces(body.solid, result.cloud.centre)
             draw_mesh(ax, mesh, CAMERA, colour=colours, crease=50.0, pixels=900)
@@ -64,9 +64,9 @@ def draw_hero(result: Reconstruction, path: Path) -> Path:
     return path
 
 
-def _draw_slices(ax: Axes, result: Reconstruction) -> None:
+def _draw_slices(ax: Axes, one: Trial) -> None:
     """Slices as sheets of paper with their worked points, the higher ones over the lower ones."""
-    body, pose = result.bodies[0], pose_of(result, result.bodies[0])
+    body, pose = one.lofted, pose_of(one.result, one.lofted)
     for order, (worked, section) in enumerate(zip(body.worked, body.sections, strict=True), start=3):
         colour = CURVES[section.shape.kind]
         ring, inner = (

@@ -23,6 +23,8 @@ import directions  # noqa: E402
 import distortion  # noqa: E402
 import lamp  # noqa: E402
 import quantify  # noqa: E402
+import slices  # noqa: E402
+from sketchloft import reconstruct  # noqa: E402
 from trial import N, cloud_of, trial  # noqa: E402
 
 __all__ = ["main", "shrink"]
@@ -39,9 +41,9 @@ ALMOST_WHITE = 247
 def main(folder: Path, n: int = N) -> list[Path]:
     """Make every picture, and make it small."""
     folder.mkdir(parents=True, exist_ok=True)
-    pictures = [draw_hero(trial(cloud_of("lamp", n)).result, folder / "hero.png")]
-    pictures += demo.draw_stages(trial(cloud_of(demo.NAME, n)).result, folder)
-    for example in (quantify, distortion, comparison, lamp, directions):
+    pictures = [draw_hero(trial(cloud_of("lamp", n)), folder / "hero.png")]
+    pictures += demo.draw_findings(reconstruct(cloud_of(demo.NAME, n)), folder)
+    for example in (slices, quantify, distortion, comparison, lamp, directions):
         pictures += example.main(folder, n)
     for picture in pictures:
         shrink(picture)

@@ -33,7 +33,7 @@ def main(folder: Path, n: int) -> list[Path]:
     written = []
     for name, title in TITLES.items():
         cloud = cloud_of(name, n)
-        loft = slice_and_loft(cloud, Params(direction=ALONG_Z))
+        loft = slice_and_loft(cloud, Params(method="paper", direction=ALONG_Z))
         found = compare(cloud, RADII, loft, goal=goal_mesh(name))
         _print_table(found, title)
         written.append(folder / f"comparison-{name}.png")

@@ -2,7 +2,8 @@
 
 Draws the paper's sample cloud (figure 3), builds the model with the defaults that `sketchloft build` has,
 measures it against the exact solid, and leaves everything in one folder: the cloud, the model as STEP and
-STL, the goal, a picture of every stage (figures 3 and 5 to 9), the error map (figure 11) and the report.
+STL, the goal, pictures of what was found, from the points to the faces, the error map (figure 11) and the
+report. The stages of the paper's own method are in `examples/slices.py`.
 
     python examples/demo.py [FOLDER]
 """
@@ -11,24 +12,24 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from sketchloft import NamedSolid, Reconstruction, write_cloud, write_model
+from sketchloft import NamedSolid, Reconstruction, reconstruct, write_cloud, write_model
 from sketchloft.brep.primitives import fuse
-from sketchloft.direction import DirectionParams
-from sketchloft.report.cloud_figure import cloud_figure
-from sketchloft.report.distance_figure import distance_figure
+from sketchloft.exact import ExactBody
+from sketchloft.report.axial_profile_figure import axial_profile_figure
+from sketchloft.report.cuts_figure import cuts_figure
 from sketchloft.report.error_map import draw_error_map
-from sketchloft.report.evidence_figure import evidence_figure
 from sketchloft.report.html import write_report
-from sketchloft.report.loft_figure import loft_figure
+from sketchloft.report.kinds_figure import kinds_figure
 from sketchloft.report.overview_figure import overview_figure
 from sketchloft.report.picture import save_figure
-from sketchloft.report.sections_figure import sections_figure
-from sketchloft.report.side_figure import side_figure
+from sketchloft.report.precision import precision
+from sketchloft.report.runs_figure import runs_figure
+from sketchloft.report.wall_distance_figure import wall_distance_figure
 from sketchloft.sample import GOALS
 from sketchloft.summary import summary_lines
-from trial import UNIT, cloud_of, run, trial
+from trial import UNIT, Trial, cloud_of, run
 
-__all__ = ["draw_stages", "main"]
+__all__ = ["draw_findings", "main"]
 
 NAME = "three-spheres"
 
@@ -36,13 +37,13 @@ NAME = "three-spheres"
 def main(folder: Path, n: int) -> list[Path]:
     """Leave everything in the folder and print the key figures."""
     cloud = cloud_of(NAME, n)
-    one = trial(cloud, DirectionParams())
+    one = Trial.of(reconstruct(cloud), NAME)
     files = [folder / name for name in ("cloud.ply", "model.step", "model.stl", "goal.step", "report.html")]
     cloud_file, *models, goal_file, report = files
     write_cloud(cloud_file, cloud)
     write_model(models, [NamedSolid(body.name, body.solid) for body in one.result.bodies], UNIT)
     write_model(goal_file, [NamedSolid(f"{NAME}-goal", fuse(GOALS[NAME].parts))], UNIT)
-    pictures = [*draw_stages(one.result, folder), folder / "error-map.png"]
+    pictures = [*draw_findings(one.result, folder), folder / "error-map.png"]
     draw_error_map(one.measured, pictures[-1], unit=UNIT, title=f"Three spheres, {n:,} points")
     write_report(one.result, report, unit=UNIT, measurement=one.measured)
     for line in summary_lines(one.result, UNIT):
@@ -52,16 +53,18 @@ def main(folder: Path, n: int) -> list[Path]:
     return [*files, *pictures]
 
 
-def draw_stages(result: Reconstruction, folder: Path) -> list[Path]:
-    """Draw every stage of the first body, in the order of the stages."""
+def draw_findings(result: Reconstruction, folder: Path) -> list[Path]:
+    """Draw what was found of the first body, from its points to its faces."""
     body = result.bodies[0]
+    if not isinstance(body, ExactBody):
+        raise TypeError(f"found a loft, expected exact walls: {body.instead or 'the method is paper'}")
+    errors = precision(body)
     figures = {
-        "cloud": cloud_figure(result, body, unit=UNIT),
-        "slice-planes": distance_figure(result, body, unit=UNIT),
-        "edge-points": side_figure(result, body, unit=UNIT),
-        "sections": sections_figure(result, body, unit=UNIT),
-        "evidence": evidence_figure(body, unit=UNIT),
-        "loft": loft_figure(result, body, unit=UNIT),
+        "cuts": cuts_figure(result, body, unit=UNIT),
+        "profile": axial_profile_figure(result, body, unit=UNIT),
+        "runs": runs_figure(result, body, errors, unit=UNIT),
+        "kinds": kinds_figure(result, body, unit=UNIT),
+        "walls": wall_distance_figure(result, body, errors, unit=UNIT),
         "overview": overview_figure(result, unit=UNIT),
     }
     for name, figure in figures.items():

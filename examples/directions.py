@@ -27,7 +27,7 @@ def main(folder: Path, n: int) -> list[Path]:
     cloud = cloud_of("l-shape", n)
     trials = {axis: trial(cloud, DirectionParams(parse_axis(axis))) for axis in ("x", "y", "z", "auto")}
     print_figures({f"along {axis}": one.measured for axis, one in trials.items()})
-    print(f"auto is {direction_words(trials.pop('auto').result.bodies[0].direction.vector)}")
+    print(f"auto is {direction_words(trials.pop('auto').lofted.direction.vector)}")
     picture = folder / "directions.png"
     save_figure(directions_figure([one.result for one in trials.values()], unit=UNIT), picture)
     return [picture]

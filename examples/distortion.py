@@ -45,7 +45,7 @@ def main(folder: Path, n: int) -> list[Path]:
             "  between": _part(circles.measured, ~outer),
         }
     )
-    shapes = [section.shape for section in circles.result.bodies[0].sections]
+    shapes = [section.shape for section in circles.lofted.sections]
     centres = np.array([shape.centre for shape in shapes if isinstance(shape, Circle)])
     stray = np.sqrt(np.square(centres - centres.mean(axis=0)).sum(axis=1).mean())
     print(f"centres of {len(centres)} circles: rms {stray:.4f} {UNIT} from their axis")

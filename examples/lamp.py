@@ -41,7 +41,7 @@ def main(folder: Path, n: int) -> list[Path]:
 
 def _by_hand(one: Trial) -> str:
     """Shapes of all slices as the command line takes them, such as 0-3:circle,4:rectangle."""
-    kinds = ["off" if s.shape.kind == "spline" else s.shape.kind for s in one.result.bodies[0].sections]
+    kinds = ["off" if s.shape.kind == "spline" else s.shape.kind for s in one.lofted.sections]
     words, first = [], 0
     for kind, members in itertools.groupby(kinds):
         last = first + len(list(members)) - 1

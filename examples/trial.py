@@ -7,12 +7,14 @@ import functools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Self
 
 from sketchloft import Measurement, Mesh, Params, PointCloud, Reconstruction, measure, reconstruct
 from sketchloft.brep.primitives import fuse
 from sketchloft.brep.tessellate import tessellate
 from sketchloft.cloud import Unit
 from sketchloft.direction import DirectionParams
+from sketchloft.pipeline import BodyModel
 from sketchloft.sample import GOALS, FillParams, sample_goal
 from sketchloft.shapes.choice import ShapesParams
 
@@ -32,6 +34,19 @@ class Trial:
     result: Reconstruction
     measured: Measurement
 
+    @classmethod
+    def of(cls, result: Reconstruction, goal: str) -> Self:
+        """Measure the model of a goal's cloud."""
+        return cls(result, measure(tessellate(result.bodies[0].solid, CHORD), goal_mesh(goal)))
+
+    @property
+    def lofted(self) -> BodyModel:
+        """The body, which was sliced and lofted."""
+        body = self.result.bodies[0]
+        if not isinstance(body, BodyModel):
+            raise TypeError(f"found the method {self.result.params.method}, expected paper")
+        return body
+
     @property
     def mesh(self) -> Mesh:
         """Triangles of the model."""
@@ -40,7 +55,7 @@ class Trial:
     @property
     def shapes(self) -> str:
         """Kinds of sections that it was lofted through."""
-        kinds = {section.shape.kind for section in self.result.bodies[0].sections}
+        kinds = {section.shape.kind for section in self.lofted.sections}
         return " and ".join(f"{kind}s" for kind in sorted(kinds))
 
     @property
@@ -62,10 +77,9 @@ def goal_mesh(name: str) -> Mesh:
 
 
 def trial(cloud: PointCloud, direction: DirectionParams = ALONG_Z, shapes: str = "auto") -> Trial:
-    """Build a model of a goal's cloud and measure it."""
-    result = reconstruct(cloud, Params(direction=direction, shapes=ShapesParams(shapes)))
-    mesh = tessellate(result.bodies[0].solid, CHORD)
-    return Trial(result, measure(mesh, goal_mesh(cloud.name)))
+    """Build a model of a goal's cloud by the paper's method and measure it."""
+    params = Params(method="paper", direction=direction, shapes=ShapesParams(shapes))
+    return Trial.of(reconstruct(cloud, params), cloud.name)
 
 
 def print_figures(rows: dict[str, Measurement]) -> None:

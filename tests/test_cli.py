@@ -13,6 +13,8 @@ from sketchloft.remarks import ranges
 
 RNG = np.random.default_rng(0)
 CUBE = RNG.random((3000, 3))
+PAPER = ["--method", "paper"]
+both_methods = pytest.mark.parametrize("method", ["exact", "paper"])
 
 
 def run(*arguments: str, capsys: pytest.CaptureFixture[str]) -> tuple[int, str, str]:
@@ -33,17 +35,21 @@ def cube(here: Path) -> str:
     return "cube.xyz"
 
 
-def test_sample_build_measure_info(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+@both_methods
+def test_sample_build_measure_info(method: str, here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     code, out, _ = run("sample", "lamp", "-n", "3000", "-o", "lamp.ply", "--goal", "goal.step", capsys=capsys)
     assert code == 0
     assert "3000 points" in out
-    code, out, err = run("build", "lamp.ply", "--axis", "z", "-o", "m.step", "-o", "m.stl", capsys=capsys)
+    asked = ("--method", method, "--axis", "z", "-o", "m.step", "-o", "m.stl")
+    code, out, err = run("build", "lamp.ply", *asked, capsys=capsys)
     assert (code, err) == (0, "")
     assert "valid solid" in out
     assert "written: m.step, m.stl" in out
     code, out, _ = run("measure", "m.step", "goal.step", "-p", "error.png", "--json", capsys=capsys)
     assert code == 0
-    assert json.loads(out)["unit"] == "mm"
+    measured = json.loads(out)
+    assert measured["unit"] == "mm"
+    assert measured["thousandths"]["model_to_goal"]["rms"] < (1 if method == "exact" else 4)
     assert (here / "error.png").stat().st_size > 10_000
     for file, said in (
         ("lamp.ply", "points         3000"),
@@ -55,15 +61,36 @@ def test_sample_build_measure_info(here: Path, capsys: pytest.CaptureFixture[str
         assert said in out
 
 
-def test_json_is_the_only_thing_on_standard_output(cube: str, capsys: pytest.CaptureFixture[str]) -> None:
-    code, out, err = run("build", cube, "--json", "-v", capsys=capsys)
+FOUND = {
+    "exact": ("evidence: ", {"runs", "noise"}),
+    "paper": ("slice planes: 0.", {"slices", "shapes"}),
+}
+
+
+@pytest.mark.parametrize("method", FOUND)
+def test_json_is_the_only_thing_on_standard_output(
+    method: str, cube: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    said, keys = FOUND[method]
+    code, out, err = run("build", cube, "--method", method, "--json", "-v", capsys=capsys)
     assert code == 0
     facts = json.loads(out)
     assert facts["written"] == ["cube.step"]
     assert facts["points"] == {"read": 3000, "not_finite": 0, "repeated": 0, "used": 3000}
     assert facts["bodies"][0]["valid"] is True
     assert facts["bodies"][0]["volume"] == pytest.approx(1, rel=0.03)
-    assert "slice planes: 0." in err
+    common = {"name", "points", "direction", "faces", "volume", "area", "bounds", "valid"}
+    assert set(facts["bodies"][0]) == common | keys
+    assert said in err
+
+
+def test_without_a_method_it_is_exact(cube: str, capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, _ = run("build", cube, "--axis", "z", "--json", capsys=capsys)
+    assert code == 0
+    (body,) = json.loads(out)["bodies"]
+    assert body["runs"] == [["rectangle"]]
+    assert body["faces"] == {"Plane": 6}
+    assert body["volume"] == pytest.approx(1, rel=0.005)
 
 
 def test_unit_is_written_and_read_back(cube: str, capsys: pytest.CaptureFixture[str]) -> None:
@@ -75,8 +102,9 @@ def test_unit_is_written_and_read_back(cube: str, capsys: pytest.CaptureFixture[
     assert facts["cube"]["volume"] == pytest.approx(1, rel=0.03)
 
 
-def test_a_report(cube: str, here: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    code, out, _ = run("build", cube, "--report", "report.html", capsys=capsys)
+@both_methods
+def test_a_report(method: str, cube: str, here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, _ = run("build", cube, "--method", method, "--report", "report.html", capsys=capsys)
     assert code == 0
     assert "report.html" in out
     assert "<html" in (here / "report.html").read_text(encoding="utf-8")
@@ -95,7 +123,7 @@ def test_compare(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
 
 def test_options_from_a_toml_file(cube: str, here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (here / "options.toml").write_text(
-        '[build]\naxis = "x"\nshapes = "off"\noutput = ["t.step"]\njson = true\n'
+        '[build]\nmethod = "paper"\naxis = "x"\nshapes = "off"\noutput = ["t.step"]\njson = true\n'
     )
     code, out, _ = run("build", cube, "--config", "options.toml", capsys=capsys)
     assert code == 0
@@ -105,6 +133,9 @@ def test_options_from_a_toml_file(cube: str, here: Path, capsys: pytest.CaptureF
     assert list(facts["bodies"][0]["shapes"]) == ["spline"]
     code, out, _ = run("build", cube, "--config", "options.toml", "--axis", "y", capsys=capsys)
     assert json.loads(out)["bodies"][0]["direction"] == [0, 1, 0]
+    code, out, _ = run("build", cube, "--config", "options.toml", "--method", "exact", capsys=capsys)
+    assert json.loads(out)["bodies"][0]["direction"] == [1, 0, 0]
+    assert "runs" in json.loads(out)["bodies"][0]
 
 
 def test_remarks_go_to_standard_error_and_quiet_keeps_them(
@@ -154,11 +185,12 @@ def test_a_cloud_far_from_the_origin(here: Path, capsys: pytest.CaptureFixture[s
     [
         (["--axis", "q"], 2, "axis: found 'q'"),
         (["--per-slice", "3"], 2, "per slice: found '3'"),
-        (["--per-slice", "2900"], 5, "slice planes: found 2900 points per slice"),
+        (["--method", "best"], 2, "best"),
+        ([*PAPER, "--per-slice", "2900"], 5, "slice planes: found 2900 points per slice"),
         (["--probe-radius", "0"], 2, "probe radius"),
-        (["--probe-radius", "0.001"], 5, "edge points, slice 0: a probe of radius 0.001 leaves"),
+        ([*PAPER, "--probe-radius", "0.001"], 5, "edge points, slice 0: a probe of radius 0.001 leaves"),
         (["--shapes", "round"], 2, "shapes: found 'round'"),
-        (["--shapes", "99:circle"], 2, "shapes: found slices 99"),
+        ([*PAPER, "--shapes", "99:circle"], 2, "shapes: found slices 99"),
         (["--bodies", "12"], 2, "bodies: found '12'"),
         (["--unit", "ft"], 2, "ft"),
         (["--loft", "bent"], 2, "bent"),
@@ -181,7 +213,7 @@ def test_a_bad_option_gets_one_sentence_and_leaves_nothing(
 
 
 def test_a_probe_larger_than_the_section_is_said(cube: str, capsys: pytest.CaptureFixture[str]) -> None:
-    code, _, err = run("build", cube, "--probe-radius", "50", capsys=capsys)
+    code, _, err = run("build", cube, *PAPER, "--probe-radius", "50", capsys=capsys)
     assert code == 0
     assert "the probe radius is larger than the section" in err
 

@@ -27,16 +27,20 @@ from sketchloft.compare import (
     Row,
     compare,
     parse_radii,
+    slice_and_loft,
 )
 from sketchloft.compare.alpha_mesh import alpha_shape_mesh
 from sketchloft.compare.octree import Octree, octree_cells
 from sketchloft.compare.octree_boundary import boundary_cells, octree_boundary
 from sketchloft.compare.surface_facts import SurfaceFacts, surface_facts
 from sketchloft.compare.void_cells import voids_inside
+from sketchloft.direction import DirectionParams
 from sketchloft.errors import CloudError, ModelError, OutputError, StageError, UsageError
 from sketchloft.mesh import Mesh
+from sketchloft.pipeline import Params
 from sketchloft.report.camera import FRONT
 from sketchloft.report.comparison import comparison_figure, draw_comparison
+from sketchloft.sample import GOALS, sample_goal
 
 BALL = 4 / 3 * math.pi
 FEW = ComparisonParams(samples=1500)
@@ -376,6 +380,17 @@ def test_progress_names_method_and_radius() -> None:
         "3D alpha shape, probe radius inf",
         "octree",
     ]
+
+
+def test_slice_and_loft_is_the_papers_method_whatever_is_asked_for() -> None:
+    cloud = sample_goal(GOALS["cylinder"], 1500, seed=1)
+    along = DirectionParams((0, 0, 1))
+    default, paper = (
+        slice_and_loft(cloud, Params(method, direction=along))(1.5) for method in ("exact", "paper")
+    )
+    assert default.faces == paper.faces > 3
+    assert np.array_equal(default.mesh.vertices, paper.mesh.vertices)
+    assert default.mesh.volume == pytest.approx(32 * np.pi, rel=0.1)
 
 
 def test_parse_radii() -> None:

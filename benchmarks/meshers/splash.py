@@ -29,15 +29,16 @@ def _build(
     return np.asarray(mesh.mesh.vertices), np.asarray(mesh.mesh.triangles, dtype=np.int64)
 
 
+# The best four of 120 over clean and noisy clouds of four goals: within 1 % of the best for each cloud.
 SPLASH = Mesher(
     "splashsurf",
     "pysplashsurf",
     "pysplashsurf",
     (
-        {"smoothing": 1.4, "threshold": 0.6, "iterations": 10},
-        {"smoothing": 1.4, "threshold": 0.5, "iterations": 25},
-        {"smoothing": 2.0, "threshold": 0.7, "iterations": 0},
-        {"smoothing": 2.0, "threshold": 0.7, "iterations": 10},
+        {"smoothing": 1.4, "threshold": 0.6, "iterations": 5},
+        {"smoothing": 1.7, "threshold": 0.55, "iterations": 25},
+        {"smoothing": 2.4, "threshold": 0.65, "iterations": 15},
+        {"smoothing": 2.4, "threshold": 0.7, "iterations": 0},
     ),
     _build,
 )

@@ -63,6 +63,8 @@ def _application() -> cyclopts.App:
 
 def main(arguments: list[str] | None = None) -> None:
     """Run the command line and leave with its exit code."""
+    # The matrices are small: a second thread only waits for the first, and on a busy machine for long.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     sys.exit(_exit_code(sys.argv[1:] if arguments is None else arguments))
 
 

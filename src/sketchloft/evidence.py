@@ -33,6 +33,8 @@ SHORT = 8.0
 """Runs shorter than so many noise deviations are taken for noise unless they gain a lot."""
 SPLINE_GAIN = 20.0
 """What one free profile must gain over a chain of lines and arcs."""
+SPANS = (4, 7, 11)
+"""Knot spans of the free profiles that are tried."""
 LOFTS = ((10, 2), (12, 4), (16, 6))
 """Poles around and spans along of the free walls that are tried."""
 PATIENCE = 400.0
@@ -179,7 +181,7 @@ def _merges(model: ExactModel) -> Iterator[Change]:
 
 def _chains(model: ExactModel) -> Iterator[Change]:
     """One spline for a chain of revolved runs."""
-    runs, breaks = model.stack.runs, model.stack.breaks
+    runs = model.stack.runs
     start = 0
     while start < len(runs):
         stop = start
@@ -187,13 +189,13 @@ def _chains(model: ExactModel) -> Iterator[Change]:
             if stop > start and not _continuous(model, stop):
                 break
             stop += 1
-        if stop - start >= 2:
-            for spans in (4, 7, 11):
+        if stop > start:
+            for spans in SPANS:
                 wall = _spline_through(model, start, stop, spans)
                 yield (
                     with_runs(model, start, stop - 1, Run((wall,))),
                     range(start, start + 1),
-                    SPLINE_GAIN if stop - start > 2 else SPLINE_GAIN / 2,
+                    SPLINE_GAIN,
                 )
         start = max(stop, start + 1)
     for j, run in enumerate(runs):
@@ -204,7 +206,6 @@ def _chains(model: ExactModel) -> Iterator[Change]:
                 if other >= 1:
                     wall = _spline_through(model, j, j + 1, other)
                     yield with_run(model, j, Run((wall,))), range(j, j + 1), 0.0
-    del breaks
 
 
 def _continuous(model: ExactModel, k: int) -> bool:
@@ -231,7 +232,7 @@ def _spline_through(model: ExactModel, start: int, stop: int, spans: int) -> Rev
         centres.append(length * wall.centre)
     z, r, w = np.concatenate(heights), np.concatenate(radii), np.sqrt(np.concatenate(weights))
     low, high = float(breaks[start]), float(breaks[stop])
-    knots = spline_knots(low, high, spans, 0.02 * (high - low))
+    knots = spline_knots(low, high, spans, 0.05 * (high - low) + 0.01)
     basis = basis_matrix(knots, 3, z)
     smooth = 1e-3 * np.diff(np.eye(basis.shape[1]), 2, axis=0)
     rows = np.concatenate([w[:, None] * basis, smooth * float(w.mean())])

@@ -21,14 +21,17 @@ __all__ = ["Candidate", "exact_direction"]
 
 SPHERE = 900
 """Directions on the half sphere that are tried."""
-NORMALS = 1500
+NORMALS = 3000
+SMOOTHER = 1.8
+"""Further blur, in cells, of the level set that normals are taken from."""
 NARROW = 0.12
 """Sine of the angle within which a normal lies across or along a direction, or meets the axis."""
 APART = 0.94
 """Cosine of the angle within which two candidates are one."""
 BINS = 56
 SHORTEST = 4
-SYMMETRY = 0.06
+PRICE = 60.0
+SYMMETRY = 0.4
 LEANS = (0.012, 0.035, 0.012, 0.005)
 SAME = 0.985
 MOST_POINTS = 4000
@@ -77,7 +80,7 @@ def exact_direction(
     H. Pottmann, T. Randrup, Rotational and helical surface approximation for reverse engineering,
     Computing 60 (1998) 307-322.
     """
-    at, normals = _wall_normals(grid)
+    at, normals = walls = _wall_normals(grid)
     sphere = _half_sphere(SPHERE)
     found: list[tuple[Floats, str]] = [
         (axis, "principal") for axis in np.linalg.eigh(points.T @ points)[1].T
@@ -89,41 +92,45 @@ def exact_direction(
     ):
         for start in _peaks(sphere, score):
             found.append((REFINE[source](start, at, normals), source))
-    coarse = replace(params, most_bins=BINS, shortest=SHORTEST)
+    coarse = replace(params, most_bins=BINS, shortest=SHORTEST, price=PRICE)
     sample = points[:: len(points) // MOST_POINTS + 1]
     candidates: list[Candidate] = []
     for vector, source in found:
         if all(abs(float(vector @ other.vector)) < SAME for other in candidates):
-            candidates.append(_judged(sample, vector, source, coarse, together))
+            candidates.append(_judged(sample, vector, source, coarse, together, walls))
     candidates.sort(key=lambda candidate: -candidate.value)
     for i in range(min(REFINED, len(candidates))):
         start = candidates[i]
         by_normals = [REFINE[name](start.vector, at, normals) for name in REFINE]
-        others = [_judged(sample, vector, start.source, coarse, together) for vector in by_normals]
+        others = [_judged(sample, vector, start.source, coarse, together, walls) for vector in by_normals]
         start = max([start, *others], key=lambda candidate: candidate.value)
-        candidates[i] = _refined(sample, start, coarse, together)
-    candidates = [_with_symmetry(candidate, at, normals) for candidate in candidates]
+        candidates[i] = _refined(sample, start, coarse, together, walls)
     candidates.sort(key=lambda candidate: -candidate.value)
     return tuple(candidates)
 
 
-def _with_symmetry(candidate: Candidate, at: Floats, normals: Floats) -> Candidate:
-    """Favour what is revolved or extruded as a whole: of equal directions it has the simplest sections."""
-    along = candidate.vector[None]
-    share = max(float(_revolution(along, at, normals)[0]), float(_extrusion(along, normals)[0]))
-    return replace(candidate, value=candidate.value + SYMMETRY * share)
-
-
 def _judged(
-    points: Floats, vector: Floats, source: str, params: SegmentsParams, together: float
+    points: Floats,
+    vector: Floats,
+    source: str,
+    params: SegmentsParams,
+    together: float,
+    walls: tuple[Floats, Floats],
 ) -> Candidate:
+    """Favour what is revolved or extruded as a whole: of equal directions it has the simplest sections."""
     frame = frame_along(vector, points)
     value = rule_likelihood(frame.to_local(points), params, together)
-    return Candidate(frame.direction, value, source)
+    along = frame.direction[None]
+    share = max(float(_revolution(along, *walls)[0]), float(_extrusion(along, walls[1])[0]))
+    return Candidate(frame.direction, value + SYMMETRY * share, source)
 
 
 def _refined(
-    points: Floats, candidate: Candidate, params: SegmentsParams, together: float
+    points: Floats,
+    candidate: Candidate,
+    params: SegmentsParams,
+    together: float,
+    walls: tuple[Floats, Floats],
 ) -> Candidate:
     """Tilt a candidate, less and less, as long as it gets better."""
     for angle in LEANS:
@@ -132,7 +139,7 @@ def _refined(
         for turn in np.arange(4) * np.pi / 2:
             lean = angle * (np.cos(turn) * frame.axes[0] + np.sin(turn) * frame.axes[1])
             around.append(
-                _judged(points, candidate.vector + lean, candidate.source, params, together)
+                _judged(points, candidate.vector + lean, candidate.source, params, together, walls)
             )
         candidate = max(around, key=lambda other: other.value)
     return candidate
@@ -140,7 +147,9 @@ def _refined(
 
 def _wall_normals(grid: LevelSet) -> tuple[Floats, Floats]:
     """Places on the half level and the outward normals there, evenly thinned."""
-    level = np.where(grid.inside | (grid.level < 0.5), grid.level, 0.5)
+    from scipy import ndimage  # noqa: PLC0415
+
+    level = ndimage.gaussian_filter(grid.level, SMOOTHER)
     index = np.argwhere(np.abs(level - 0.5) < 0.2)
     gradient = np.stack(
         [axis[tuple(index.T)] for axis in np.gradient(level.astype(np.float64))], axis=1

@@ -128,7 +128,7 @@ def _step(now: Evaluation, free: np.ndarray, damping: float, sigma: float) -> Fl
     diagonal = np.diag(information).copy()
     floor = 1e-9 * max(float(diagonal.max(initial=0.0)), 1.0) + (0.1 * now.reach[index] / sigma) ** 2
     information = information + np.diag(damping * diagonal + floor * max(damping, 1e-3))
-    raw = np.linalg.solve(information, now.score[index])
+    raw = np.linalg.solve(information + 1e-12 * np.eye(len(index)), now.score[index])
     limit = STRIDE * sigma / now.reach[index]
     limit[index == len(free) - 1] = 0.5
     step[index] = np.clip(raw, -limit, limit)

@@ -13,7 +13,13 @@ from numpy.typing import NDArray
 
 from sketchloft.cloud import Floats
 from sketchloft.exact_model import ExactModel
-from sketchloft.stack import Run
+from sketchloft.outline.circle import Circle
+from sketchloft.outline.ellipse import Ellipse
+from sketchloft.stack import Run, Wall
+from sketchloft.wall.lofted import Lofted
+from sketchloft.wall.profile import ArcProfile, SplineProfile
+from sketchloft.wall.revolved import Revolved
+from sketchloft.wall.swept import Swept
 
 __all__ = ["Evaluation", "beside_walls", "evaluate", "mass_nodes", "share_of", "sound", "value_of", "wall_nodes"]
 
@@ -91,15 +97,44 @@ def share_of(points: Floats, model: ExactModel, *, caps: bool = True) -> Floats:
 
 
 def sound(model: ExactModel) -> bool:
-    """Whether the breaks rise and every wall encloses something."""
+    """Whether the breaks rise, and every wall encloses something and nowhere crosses itself."""
     breaks = model.stack.breaks
     if not np.isfinite(model.vector).all() or not (np.diff(breaks) > 0).all():
         return False
     for j, run in enumerate(model.stack.runs):
-        at = np.linspace(breaks[j], breaks[j + 1], 7)[1:-1]
-        if any((wall.area(at) <= 0).any() for wall in run.walls):
+        if any(not _covers(wall, breaks[j], breaks[j + 1]) for wall in run.walls):
+            return False
+        ends = np.linspace(breaks[j], breaks[j + 1], 7)
+        at = ends[1:-1]
+        if any((wall.area(at) <= 0).any() or not _simple(wall, ends) for wall in run.walls):
             return False
     return True
+
+
+def _simple(wall: Wall, heights: Floats) -> bool:
+    """Whether the sections at heights (m,) nowhere cross themselves."""
+    from shapely import is_valid, linearrings, polygons  # noqa: PLC0415
+
+    if isinstance(wall, Lofted):
+        count = 4 * wall.poles.shape[1]
+        rings = wall.ring(heights, np.arange(count) / count)
+    elif isinstance(wall, Swept) and not isinstance(wall.outline, (Circle, Ellipse)):
+        rings = wall.outline.boundary(64).points[None]
+    else:
+        return True
+    return bool(is_valid(polygons(linearrings(rings))).all())
+
+
+def _covers(wall: Wall, low: float, high: float) -> bool:
+    """Whether a spline's knots, or a torus, reach over a stretch of heights."""
+    ends = (-np.inf, np.inf)
+    if isinstance(wall, Lofted):
+        ends = wall.knots[0], wall.knots[-1]
+    if isinstance(wall, Revolved) and isinstance(wall.profile, SplineProfile):
+        ends = wall.profile.knots[0], wall.profile.knots[-1]
+    if isinstance(wall, Revolved) and isinstance(wall.profile, ArcProfile) and wall.profile.offset is not None:
+        ends = wall.profile.height - wall.profile.radius, wall.profile.height + wall.profile.radius
+    return bool(ends[0] <= low and high <= ends[1])
 
 
 def _inside(
@@ -173,7 +208,7 @@ def _section(
         bell = bell * (voids if signs[i] > 0 else outer * voids / np.maximum(soft[i], 1e-12))
         values = -signs[i] * bell[:, None] * foot.gradient
         near = np.abs(depth[i]) < REACH * sigma
-        farthest = np.abs(foot.gradient[near]).max(axis=0, initial=1e-3)
+        farthest = np.abs(foot.gradient[near]).max(axis=0, initial=0.2)
         slopes.append((model.slots[j][i], values, farthest))
         # A point turned by (a, b, 0) moves by (b z, -a z, a y - b x).
         x, y, z = points.T

@@ -51,7 +51,7 @@ def loft_start(
             return None
         heights.append(float(slab[:, 2].mean()))
         rings.append(_matched(outer[0], rings[-1] if rings else None))
-    margin = 0.02 * (high - low)
+    margin = 0.06 * (high - low) + 0.01
     inner_knots = np.linspace(low - margin, high + margin, spans + 1)
     knots = np.r_[np.repeat(inner_knots[0], 3), inner_knots, np.repeat(inner_knots[-1], 3)]
     sections = np.array([fit_spline(ring, around).poles for ring in rings])

@@ -20,7 +20,7 @@ BLUR = 0.012
 CELLS = 1.5
 """Cells per blur."""
 FEWEST = 40
-PER_SEGMENT = 8.0
+PER_SEGMENT = 14.0
 """Parameters of a segment's rule, as they are priced."""
 
 

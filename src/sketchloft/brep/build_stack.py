@@ -48,6 +48,12 @@ def built_stack(stack: Stack, origin: Floats, axes: Floats, scale: float = 1.0) 
         facts = check_stack(solid, stack)
     except ModelError as error:
         raise ModelError(f"solid: {error}") from None
+    except Exception as error:  # the kernel's own errors share no base
+        if not type(error).__module__.startswith("OCP"):
+            raise
+        raise ModelError(
+            f"solid: the CAD kernel could not make these walls ({type(error).__name__})"
+        ) from error
     there = placed(solid, scale, origin, axes)
     facts = replace(
         facts, volume=facts.volume * scale**3, area=facts.area * scale**2, bounds=bounds_of(there.shape)

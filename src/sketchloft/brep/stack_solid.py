@@ -22,7 +22,7 @@ from sketchloft.wall.revolved import Revolved
 
 __all__ = ["stack_solid"]
 
-FUZZY = (0.0, 1e-6, 1e-5)
+FUZZY = (1e-6, 1e-5, 0.0)
 """Distances up to which edges are taken for one, tried in this order."""
 COAXIAL = 1e-9
 """Distance of axes, as a share of the size, up to which they are one."""

@@ -22,8 +22,8 @@ def slice_and_loft(cloud: PointCloud, params: Params) -> Callable[[float], Lofte
     ----------
     cloud : PointCloud
     params : Params
-        Its probe radius is replaced, and shapes are not recognised, so that nothing but the probe radius
-        makes the difference (paper, section 5.3).
+        The method is the paper's; its probe radius is replaced, and shapes are not recognised, so that
+        nothing but the probe radius makes the difference (paper, section 5.3).
 
     Returns
     -------
@@ -34,7 +34,9 @@ def slice_and_loft(cloud: PointCloud, params: Params) -> Callable[[float], Lofte
     def model(radius: float) -> LoftedModel:
         from sketchloft.brep.tessellate import tessellate  # noqa: PLC0415  the kernel only when called
 
-        asked = replace(params, edge_points=EdgePointsParams(radius), shapes=ShapesParams("off"))
+        asked = replace(
+            params, method="paper", edge_points=EdgePointsParams(radius), shapes=ShapesParams("off")
+        )
         bodies = reconstruct(cloud, asked).bodies
         faces = sum(sum(body.facts.faces.values()) for body in bodies)
         return LoftedModel(concatenated([tessellate(body.solid) for body in bodies]), faces)

@@ -15,6 +15,7 @@ from sketchloft.wall.profile import ArcProfile, LineProfile, Profile, SplineProf
 __all__ = ["Revolved", "radius_at"]
 
 GAUSS = np.polynomial.legendre.leggauss(8)
+SPAN_GAUSS = np.polynomial.legendre.leggauss(4)
 
 
 @dataclass(frozen=True)
@@ -70,8 +71,7 @@ class Revolved:
 
     def boundary(self, low: float, high: float, count: int) -> WallBoundary:
         """About `count` points on the wall between two heights."""
-        pieces = max(1, count // 256)
-        z, weights = _heights(low, high, pieces, self.profile)
+        z, weights = _heights(low, high, self.profile)
         around = max(12, count // len(z))
         angle = 2 * np.pi * (np.arange(around) + 0.5) / around
         r, slope = radius_at(self.profile, z)
@@ -107,20 +107,20 @@ def radius_at(profile: Profile, heights: Floats) -> tuple[Floats, Floats]:
             return np.maximum(values, 0.0), slope
 
 
-def _heights(low: float, high: float, pieces: int, profile: Profile) -> tuple[Floats, Floats]:
-    """Gauss points and weights along z; on an arc in its angle, so that poles are integrated well."""
+def _heights(low: float, high: float, profile: Profile) -> tuple[Floats, Floats]:
+    """Gauss points and weights along z: of each knot span; on an arc in its angle, for its poles' sake."""
+    if isinstance(profile, SplineProfile):
+        ends = np.unique(np.clip(profile.knots, low, high))
+        x, w = SPAN_GAUSS
+        half = np.diff(ends)[:, None] / 2
+        return ((ends[:-1, None] + ends[1:, None]) / 2 + half * x).ravel(), (half * w).ravel()
     x, w = GAUSS
-    ends = np.linspace(0.0, 1.0, pieces + 1)
-    t = ((ends[:-1, None] + ends[1:, None]) / 2 + np.diff(ends)[:, None] / 2 * x).ravel()
-    weight = (np.diff(ends)[:, None] / 2 * w).ravel()
     if isinstance(profile, ArcProfile):
         span = np.arcsin(np.clip((np.array([low, high]) - profile.height) / profile.radius, -1, 1))
-        angle = span[0] + t * (span[1] - span[0])
-        return (
-            profile.height + profile.radius * np.sin(angle),
-            weight * profile.radius * np.cos(angle) * (span[1] - span[0]),
-        )
-    return low + t * (high - low), weight * (high - low)
+        half_angle = (span[1] - span[0]) / 2
+        angle = span.mean() + half_angle * x
+        return profile.height + profile.radius * np.sin(angle), w * half_angle * profile.radius * np.cos(angle)
+    return (low + high) / 2 + (high - low) / 2 * x, w * (high - low) / 2
 
 
 def _profile_vector(profile: Profile) -> Floats:

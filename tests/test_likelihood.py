@@ -1,0 +1,174 @@
+"""The likelihood: its slopes are those of its values, and at the truth they are what chance makes of them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from sketchloft.cloud import Floats
+from sketchloft.exact_model import Density, ExactModel, model_of
+from sketchloft.likelihood import beside_walls, evaluate, mass_nodes, share_of, sound, value_of
+from sketchloft.outline.ellipse import Ellipse
+from sketchloft.outline.outline import Outline
+from sketchloft.outline.placed_polygons import Rectangle, RegularPolygon, RoundedRectangle
+from sketchloft.outline.polygons import LineArc, Polygon
+from sketchloft.outline.rounded_polygon import RoundedPolygon
+from sketchloft.outline.spline_loop import spline_loop
+from sketchloft.stack import Run, Stack, Wall
+from sketchloft.stack_volume import stack_volume
+from sketchloft.wall.lofted import lofted
+from sketchloft.wall.profile import ArcProfile, LineProfile, SplineProfile
+from sketchloft.wall.revolved import Revolved
+from sketchloft.wall.swept import Freedom, Swept
+
+COUNT, SIGMA = 4000, 0.004
+STRAYS = 60.0
+BREAKS = np.array([-0.3, 0.28])
+KNOTS = np.array([-0.304] * 4 + [0.02] + [0.284] * 4)
+"""Just longer than the runs, so that breaks can be moved."""
+CENTRE, ORIGIN = np.array([0.03, -0.02]), np.zeros(2)
+ELL = np.array([[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]]) / 5 - 0.16
+BULGES = np.array([0, 0.3, 0, -0.4, 0.2, 0])
+ANGLE = np.arange(12) * np.pi / 6
+FLOWER = spline_loop(
+    ((2 + 0.4 * np.cos(3 * ANGLE)) * np.stack([np.cos(ANGLE), np.sin(ANGLE)])).T / 7,
+)
+RINGS = np.stack(
+    [
+        scale * FLOWER.poles + [shift, 0]
+        for scale, shift in ((0.8, 0), (1, 0.02), (1.1, 0.05), (0.9, 0.1), (0.7, 0.1))
+    ]
+)
+
+
+def swept(outline: Outline, *free: Freedom) -> Swept:
+    drift, taper, twist = (float(name in free) for name in ("drift", "taper", "twist"))
+    return Swept(outline, 0.05, CENTRE, np.array([0.2, -0.1]) * drift, 0.4 * taper, 0.6 * twist, free)
+
+
+WALLS: dict[str, Wall] = {
+    "cylinder": Revolved(CENTRE, LineProfile(0.0, 0.3, None)),
+    "cone": Revolved(CENTRE, LineProfile(0.1, 0.3, -0.4)),
+    "sphere": Revolved(CENTRE, ArcProfile(0.05, None, 0.4)),
+    "torus": Revolved(CENTRE, ArcProfile(0.05, 0.1, 0.4)),
+    "waist": Revolved(CENTRE, ArcProfile(-0.05, 0.7, 0.45, -1)),
+    "spline revolve": Revolved(CENTRE, SplineProfile(KNOTS, np.array([0.2, 0.3, 0.35, 0.3, 0.25]))),
+    "extrusion": swept(Rectangle(CENTRE, 0.6, 0.4, 0.3)),
+    "slanted": swept(Polygon(ELL), "drift"),
+    "tapered": swept(Ellipse(CENTRE, 0.3, 0.2, 0.7), "taper"),
+    "twisted": swept(RegularPolygon(CENTRE, 0.35, 0.2, 5), "twist"),
+    "all at once": swept(RoundedRectangle(CENTRE, 0.6, 0.4, 0.3, 0.08), "drift", "taper", "twist"),
+    "rounded": swept(RoundedPolygon(ELL, 0.03)),
+    "lines and arcs": swept(LineArc(ELL, BULGES, BULGES != 0)),
+    "free outline": swept(FLOWER),
+    "loft": lofted(RINGS, KNOTS),
+}
+each = pytest.mark.parametrize("name", WALLS)
+
+
+def known(stack: Stack, seed: int = 3) -> tuple[Floats, ExactModel]:
+    """Points drawn evenly in a stack, with noise and strays, and the model that they were drawn from."""
+    rng = np.random.default_rng(seed)
+    box = rng.uniform(-0.6, 0.6, (40 * COUNT, 3))
+    inside = np.zeros(len(box), dtype=bool)
+    for j, run in enumerate(stack.runs):
+        here = (box[:, 2] >= stack.breaks[j]) & (box[:, 2] < stack.breaks[j + 1])
+        within = np.array([wall.foot(box[here]).distance < 0 for wall in run.walls])
+        outer = len(run.walls) - run.holes
+        inside[here] = within[:outer].any(axis=0) & ~within[outer:].any(axis=0)
+    points = box[inside][:COUNT]
+    points = points + SIGMA * rng.standard_normal(points.shape)
+    strays = rng.uniform(-0.6, 0.6, (int(STRAYS * 1.2**3), 3))
+    density = Density(np.log([COUNT / stack_volume(stack)]))
+    return np.concatenate([points, strays]), model_of(stack, SIGMA, density, STRAYS, 1.2**3)
+
+
+def one_run(name: str) -> Stack:
+    return Stack(BREAKS, (Run((WALLS[name],)),))
+
+
+def shifted(points: Floats, model: ExactModel, i: int, step: float) -> float:
+    """Value of the likelihood with the i-th parameter of its score moved."""
+    vector, breaks = model.vector.copy(), model.stack.breaks.copy()
+    tilt = np.zeros(3)
+    last = model.size + len(breaks)
+    if i < model.size:
+        vector[i] += step
+    elif i < last:
+        breaks[i - model.size] += step
+    elif i < last + 2:
+        tilt[i - last] = step
+        points = Rotation.from_rotvec(tilt).apply(points)
+    else:
+        model = replace(model, sigma=model.sigma * np.exp(step))
+    return value_of(points, model.moved(vector, breaks))
+
+
+def assert_slopes(points: Floats, model: ExactModel, *, rounded: bool = False) -> None:
+    """Scores are the values' central differences, to a fraction of what chance makes of them."""
+    found, step = evaluate(points, model), 1e-6
+    count = len(found.score)
+    some = sorted({*range(0, count, 1 + count // 20), *range(model.size, count)})
+    slopes = [(shifted(points, model, i, step) - shifted(points, model, i, -step)) / (2 * step) for i in some]
+    off = np.abs(found.score[some] - slopes) / np.sqrt(np.diag(found.information))[some]
+    # A wall's curvature is taken to stay when the wall moves, and when the noise grows.
+    assert off[:-1].max() < (0.3 if rounded else 0.05)
+    assert off[-1] < 0.3
+
+
+@each
+def test_scores_are_the_slopes_of_the_value(name: str) -> None:
+    points, model = known(one_run(name))
+    assert evaluate(points, model).value == pytest.approx(value_of(points, model))
+    assert_slopes(points, model, rounded=name in ("rounded", "all at once"))
+
+
+def test_scores_of_several_runs_with_pieces_and_a_hole() -> None:
+    hole = Revolved(CENTRE, LineProfile(0.0, 0.12, None))
+    pieces = [Swept(Rectangle(np.array([x, 0.0]), 0.2, 0.3, 0.1), 0.1, ORIGIN, ORIGIN) for x in (-0.2, 0.25)]
+    stack = Stack(
+        np.array([-0.4, -0.1, 0.1, 0.35]),
+        (Run((WALLS["cylinder"],)), Run((WALLS["cylinder"], hole), holes=1), Run(tuple(pieces))),
+    )
+    points, model = known(stack)
+    assert_slopes(points, model)
+    assert share_of(points, model)[:COUNT].mean() > 0.98
+    assert share_of(points, model)[COUNT:].mean() < 0.4
+
+
+@each
+def test_at_the_truth_scores_are_what_chance_makes_of_them(name: str) -> None:
+    """Neither noise nor the curvature of a wall pulls it to one side."""
+    points, model = known(one_run(name))
+    found = evaluate(points, model)
+    moving = model.size + len(model.stack.breaks)
+    deviations = (found.score / np.sqrt(np.diag(found.information)))[:moving]
+    assert np.abs(deviations).max() < 4
+    assert (deviations**2).mean() < 2.5
+
+
+@each
+def test_the_integration_points_hold_the_volume(name: str) -> None:
+    _, model = known(one_run(name))
+    assert mass_nodes(model)[1].sum() == pytest.approx(stack_volume(model.stack), rel=2e-3)
+
+
+def test_what_lies_deep_inside_is_left_out_and_the_rest_is_not() -> None:
+    points, model = known(one_run("cylinder"))
+    beside = beside_walls(points, model, 0.02)
+    flat = points[:, :2] - CENTRE
+    ends = (points[:, 2] - BREAKS[0], BREAKS[1] - points[:, 2])
+    depth = np.min([0.3 - np.hypot(flat[:, 0], flat[:, 1]), *ends], axis=0)
+    assert beside[depth < 0.015].all()
+    assert not beside[depth > 0.025].any()
+
+
+def test_walls_that_enclose_nothing_are_not_sound() -> None:
+    _, model = known(one_run("cone"))
+    assert sound(model)
+    assert not sound(model.moved(model.vector, BREAKS[::-1]))
+    assert not sound(model.moved(model.vector * [1, 1, -1, 0], BREAKS))
+    assert not sound(model.moved(model.vector * np.nan, BREAKS))

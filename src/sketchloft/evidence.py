@@ -42,7 +42,7 @@ PATIENCE = 400.0
 Change = tuple[ExactModel, range, float]
 
 
-def improved(points: Floats, model: ExactModel, together: float, rounds: int = 3) -> ExactModel:
+def improved(points: Floats, model: ExactModel, together: float, rounds: int = 2) -> ExactModel:
     """Change runs, one at a time, as long as it pays.
 
     Parameters
@@ -57,8 +57,9 @@ def improved(points: Floats, model: ExactModel, together: float, rounds: int = 3
     """
     for _ in range(rounds):
         before = model
-        for changes in (_merges, _chains, _swaps):
-            model = _through(points, model, together, changes)
+        model = _through(points, model, together, _merges)
+        model = _splined(points, model, together)
+        model = _through(points, model, together, _swaps)
         model = _lofted(points, model, together)
         if model is before:
             break
@@ -179,33 +180,28 @@ def _merges(model: ExactModel) -> Iterator[Change]:
             yield without_run(model, j, None), range(place, place + 1), 0.0
 
 
-def _chains(model: ExactModel) -> Iterator[Change]:
-    """One spline for a chain of revolved runs."""
-    runs = model.stack.runs
+def _splined(points: Floats, model: ExactModel, together: float) -> ExactModel:
+    """One free profile for a chain of revolved runs, with as many spans as pay."""
     start = 0
-    while start < len(runs):
+    while start < len(model.stack.runs):
         stop = start
-        while stop < len(runs) and sole_profile(runs[stop]) is not None:
+        while stop < len(model.stack.runs) and sole_profile(model.stack.runs[stop]) is not None:
             if stop > start and not _continuous(model, stop):
                 break
             stop += 1
-        if stop > start:
-            for spans in SPANS:
-                wall = _spline_through(model, start, stop, spans)
-                yield (
-                    with_runs(model, start, stop - 1, Run((wall,))),
-                    range(start, start + 1),
-                    SPLINE_GAIN,
-                )
-        start = max(stop, start + 1)
-    for j, run in enumerate(runs):
-        sole = sole_profile(run)
-        if sole is not None and isinstance(sole.profile, SplineProfile):
-            spans = len(sole.profile.radii) - 3
-            for other in (spans - 1, spans - 2, spans + 2):
-                if other >= 1:
-                    wall = _spline_through(model, j, j + 1, other)
-                    yield with_run(model, j, Run((wall,))), range(j, j + 1), 0.0
+        best: ExactModel | None = None
+        for spans in SPANS if stop > start else ():
+            source, last = (model, stop) if best is None else (best, start + 1)
+            wall = _spline_through(source, start, last, spans)
+            change = with_runs(source, start, last - 1, Run((wall,)))
+            handicap = SPLINE_GAIN if best is None else 0.0
+            better = _tried(points, source, (change, range(start, start + 1), handicap), together)
+            if better is None and (best is not None or stop - start == 1):
+                break
+            best = better or best
+        model = best or model
+        start = start + 1 if best is not None else max(stop, start + 1)
+    return model
 
 
 def _continuous(model: ExactModel, k: int) -> bool:
@@ -273,7 +269,7 @@ def coaxial(
         return still
     turn = _through_centres(model, places) if tilt else np.eye(3)
     turned = points @ turn
-    pairs = [((*places[0], k), (*place, k)) for place in places[1:] for k in (0, 1)]
+    pairs = [((*places[0], k), (*place, k)) for place in places[1:] for k in (0, 1)] + _tangents(model)
     near = turned[beside_walls(turned, model, 2 * BESIDE * model.sigma)]
     change, _, rotation = climb(near, tied(model, pairs), 12, tilt=tilt)
     change = natural_joins(change)
@@ -281,6 +277,16 @@ def coaxial(
     turned = turned @ rotation
     new = value_of(turned, change) / together - _price(change, len(points), together)
     return (change, turned, turn @ rotation) if new > old else still
+
+
+def _tangents(model: ExactModel) -> list[tuple[tuple[int, int, int], tuple[int, int, int]]]:
+    """Radii of spheres and of the cylinders they run into."""
+    place = {"cylinder": 2, "sphere": 3}
+    return [
+        ((k - 1, 0, place[model.stack.runs[k - 1].walls[0].kind]), (k, 0, place[model.stack.runs[k].walls[0].kind]))
+        for k, join in enumerate(model.joins)
+        if join == "tangent"
+    ]
 
 
 def _through_centres(model: ExactModel, places: list[tuple[int, int]]) -> Floats:

@@ -14,7 +14,7 @@ from sketchloft.errors import StageError
 from sketchloft.evidence import coaxial, improved
 from sketchloft.exact_direction import Candidate, exact_direction
 from sketchloft.exact_fit import sharpened
-from sketchloft.exact_model import ExactModel
+from sketchloft.exact_model import ExactModel, thicker
 from sketchloft.exact_start import first_stack
 from sketchloft.fit import climb, fit_density
 from sketchloft.frame import Frame, frame_along
@@ -36,6 +36,8 @@ START = 0.006
 AT_LEAST = 0.004
 """Noise that the evidence is judged with at least: sharper walls would trap the search."""
 ROOM = 1.25
+SEARCH_POINTS = 12_000
+"""The search looks at no more points; the fit looks at all."""
 BESIDE = 8.0
 
 
@@ -130,17 +132,21 @@ def exact_body(  # noqa: PLR0913
     frame = frame_along(vector, unit)
     local = frame.to_local(unit)
     progress("runs")
-    start = _start(local, params)
+    sample = local[:: len(local) // SEARCH_POINTS + 1]
+    start = _start(sample, params)
     if start is None:
         raise StageError("found no section that the points fill; draw more of the inside", stage="runs")
     cuts, first, together = start
     progress("evidence")
-    model = _settled(local, first)
+    model = natural_joins(_settled(sample, first))
     model = natural_joins(replace(model, sigma=max(model.sigma, AT_LEAST)))
-    model = improved(local, model, together)
-    model, local, turn = coaxial(local, model, together, tilt=axis == "auto")
+    model, _, _ = climb(sample[beside_walls(sample, model, BESIDE * model.sigma)], model, 8)
+    model = improved(sample, model, together)
+    model, _, turn = coaxial(sample, model, together, tilt=axis == "auto")
     progress("fit")
-    model, local, rotation = sharpened(local, model, tilt=axis == "auto")
+    model, local, rotation = sharpened(
+        local @ turn, thicker(model, len(local) / len(sample)), tilt=axis == "auto"
+    )
     turn = turn @ rotation
     frame = Frame(turn.T @ frame.axes)
     progress("solid")
@@ -153,6 +159,7 @@ def exact_body(  # noqa: PLR0913
 
 
 def _candidates(points: Floats, params: ExactParams) -> tuple[Candidate, ...]:
+    points = points[:: len(points) // SEARCH_POINTS + 1]
     grid = level_set(points)
     kept = points[on_grid(grid, points, 2 * grid.blur)]
     mean = kept.mean(axis=0)

@@ -10,7 +10,7 @@ import numpy as np
 from sketchloft.cloud import Floats, Ints
 from sketchloft.stack import Run, Stack
 
-__all__ = ["Density", "ExactModel", "Join", "model_of", "tied"]
+__all__ = ["Density", "ExactModel", "Join", "model_of", "thicker", "tied"]
 
 Slots = tuple[tuple[Ints, ...], ...]
 Join = Literal["step", "cross", "tangent", "pole"]
@@ -106,6 +106,13 @@ class ExactModel:
             for run, slots in zip(self.stack.runs, self.slots, strict=True)
         )
         return replace(self, stack=Stack(breaks, runs))
+
+
+def thicker(model: ExactModel, factor: float) -> ExactModel:
+    """Return the model of a cloud with so many times as many points."""
+    coefficients = model.density.coefficients.copy()
+    coefficients[0] += np.log(factor)
+    return replace(model, density=Density(coefficients), stray=model.stray * factor)
 
 
 def model_of(stack: Stack, sigma: float, density: Density, stray: float, space: float) -> ExactModel:

@@ -15,6 +15,7 @@ from sketchloft.outline.outline import Outline
 from sketchloft.outline.placed_polygons import Rectangle, RoundedRectangle
 from sketchloft.outline.polygons import LineArc, Polygon
 from sketchloft.outline.rounded_polygon import RoundedPolygon
+from sketchloft.outline.spline_loop import SplineLoop
 from sketchloft.stack import Wall
 from sketchloft.wall.profile import ArcProfile, LineProfile, Profile, SplineProfile
 from sketchloft.wall.revolved import Revolved, radius_at
@@ -64,9 +65,9 @@ def _form(profile: Profile) -> tuple[bool, bool]:
 
 def _outlines_like(outline: Outline) -> Iterator[Outline]:
     ring = outline.boundary(96).points
-    if not isinstance(outline, Circle):
+    if isinstance(outline, (Ellipse, LineArc, SplineLoop)):
         yield circle_of(ring)
-    if not isinstance(outline, (Circle, Ellipse)):
+    if isinstance(outline, (LineArc, SplineLoop)):
         yield ellipse_of(ring)
     if isinstance(outline, Polygon) and len(outline.vertices) > 3:
         for k in _flattest(outline.vertices):

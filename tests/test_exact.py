@@ -64,12 +64,12 @@ def model(name: str, n: int = N, fill: FillParams | None = None, seed: int = 1) 
 
 @functools.cache
 def goal_mesh(name: str) -> Mesh:
-    return tessellate(fuse(GOALS[name].parts), 2e-5, 0.1)
+    return tessellate(fuse(GOALS[name].parts), 5e-5, 0.1)
 
 
 def rms(body: ExactBody) -> float:
     """Larger one of both ways, in thousandths of the goal's diagonal."""
-    found = measure(tessellate(body.solid, 2e-5, 0.1), goal_mesh(body.name), n=8000)
+    found = measure(tessellate(body.solid, 5e-5, 0.1), goal_mesh(body.name), n=8000)
     return max(found.errors_in_thousandths.rms, found.back_errors_in_thousandths.rms)
 
 
@@ -125,9 +125,9 @@ def test_noise_and_strays_do_not_move_walls(name: str) -> None:
 
 @SLOW
 @pytest.mark.parametrize("name", ["three-spheres", "lamp", "l-shape"])
-@pytest.mark.parametrize("n", [2000, 10_000, 50_000])
-def test_errors_fall_with_the_number_of_points(name: str, n: int) -> None:
-    for seed in (1, 2):
+@pytest.mark.parametrize(("n", "seeds"), [(2000, 3), (10_000, 2), (50_000, 1)])
+def test_errors_fall_with_the_number_of_points(name: str, n: int, seeds: int) -> None:
+    for seed in range(1, seeds + 1):
         body = model(name, n, seed=seed)
         assert body.facts.faces == FACES[name]
         assert rms(body) < limit("uniform", n)

@@ -9,7 +9,7 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.exact_model import ExactModel, tied
-from sketchloft.fit import climb
+from sketchloft.fit import climb, fit_density
 from sketchloft.joins import natural_joins, sole_profile
 from sketchloft.likelihood import beside_walls, value_of
 from sketchloft.loft_start import loft_start
@@ -22,7 +22,7 @@ from sketchloft.wall.lofted import Lofted
 from sketchloft.wall.profile import ArcProfile, SplineProfile
 from sketchloft.wall.revolved import Revolved, radius_at
 
-__all__ = ["coaxial", "improved"]
+__all__ = ["MOST_NOISE", "coaxial", "improved"]
 
 BESIDE = 6.0
 """Noise deviations from the walls within which points decide."""
@@ -35,8 +35,11 @@ SPLINE_GAIN = 20.0
 """What one free profile must gain over a chain of lines and arcs."""
 SPANS = (4, 7, 11)
 """Knot spans of the free profiles that are tried."""
-LOFTS = ((10, 2), (12, 4), (16, 6))
+LOFTS = ((12, 2), (16, 4), (24, 4))
 """Poles around and spans along of the free walls that are tried."""
+SHARP = 0.006
+MOST_NOISE = 0.012
+"""Largest noise that is believed, as a share of the size; more is a wall in the wrong place."""
 PATIENCE = 400.0
 """`HOPELESS` for a free wall, which starts from contours and has far to go."""
 Change = tuple[ExactModel, range, float]
@@ -137,6 +140,8 @@ def _tried(
 ) -> ExactModel | None:
     """Fit a changed model beside its change; None if it does not pay."""
     candidate, runs, handicap = change
+    if hopeless > HOPELESS:  # a bad model is a noisy one, and a better one need not be
+        candidate = replace(candidate, sigma=min(candidate.sigma, SHARP))
     breaks = candidate.stack.breaks
     low = -np.inf if runs.start <= 1 else breaks[runs.start - 1]
     high = np.inf if runs.stop >= len(breaks) - 2 else breaks[runs.stop + 1]
@@ -152,6 +157,9 @@ def _tried(
         new = value_of(near, fitted) / together - _price(fitted, len(points), together)
         if new < old + handicap - hopeless:
             return None
+        if hopeless > HOPELESS:
+            fitted = fit_density(points, fitted, 1)
+            fitted, _, _ = climb(near, fitted, steps, runs=wide, noise=True, most=MOST_NOISE)
     fitted = natural_joins(fitted)
     new = value_of(near, fitted) / together - _price(fitted, len(points), together)
     return fitted if new > old + handicap else None

@@ -11,7 +11,7 @@ from sketchloft.cloud import Floats
 from sketchloft.direction import Axis
 from sketchloft.dispersion import dispersion
 from sketchloft.errors import StageError
-from sketchloft.evidence import coaxial, improved
+from sketchloft.evidence import MOST_NOISE, coaxial, improved
 from sketchloft.exact_direction import Candidate, exact_direction
 from sketchloft.exact_fit import sharpened
 from sketchloft.exact_model import ExactModel, thicker
@@ -184,5 +184,5 @@ def _settled(points: Floats, model: ExactModel) -> ExactModel:
     for noise in (False, True):
         model = fit_density(points, model, 2)
         near = points[beside_walls(points, model, BESIDE * model.sigma)]
-        model, _, _ = climb(near, model, 8, noise=noise)
+        model, _, _ = climb(near, model, 8, noise=noise, most=MOST_NOISE)
     return model

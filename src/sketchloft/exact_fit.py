@@ -9,12 +9,15 @@ import numpy as np
 from sketchloft.cloud import Floats
 from sketchloft.exact_model import ExactModel
 from sketchloft.fit import climb, fit_density
-from sketchloft.likelihood import beside_walls, value_of
+from sketchloft.likelihood import beside_walls, mass_nodes, value_of, wall_nodes
 
 __all__ = ["sharpened"]
 
 FLOOR = 5e-5
 """Smallest noise, as a share of the cloud's size."""
+SHELLS = 1.0
+"""Noise at least, in expected empty shells V / (n S) of all parameters together: below that a free wall
+would follow single points."""
 BESIDE = 6.0
 
 
@@ -29,7 +32,7 @@ def sharpened(points: Floats, model: ExactModel, *, tilt: bool) -> tuple[ExactMo
     (3, 3) float array
         The rotation: new points = old points @ rotation.
     """
-    turn = np.eye(3)
+    turn, floor = np.eye(3), max(FLOOR, SHELLS * _shell(points, model))
     best: tuple[float, ExactModel, Floats] | None = None
     sigma = model.sigma
     rising = True
@@ -43,13 +46,20 @@ def sharpened(points: Floats, model: ExactModel, *, tilt: bool) -> tuple[ExactMo
         rising = best is None or value > best[0]
         if rising:
             best = value, model, turn
-            if sigma <= FLOOR:
+            if sigma <= floor:
                 break
-            sigma = max(sigma / 2, FLOOR)
+            sigma = max(sigma / 2, floor)
     if best is None:
         return model, points, turn
     model = best[1]
     points = points @ turn.T @ best[2]
     near = beside_walls(points, model, BESIDE * 1.5 * model.sigma)
-    model, _, rotation = climb(points[near], model, 8, tilt=tilt, noise=True, least=FLOOR)
+    model, _, rotation = climb(points[near], model, 8, tilt=tilt, noise=True, least=floor)
     return model, points @ rotation, best[2] @ rotation
+
+
+def _shell(points: Floats, model: ExactModel) -> float:
+    """Expected empty shell of the model's parameters, V / (n S) each."""
+    _, volumes = mass_nodes(model)
+    surface = sum(float(areas.sum()) for _, _, _, _, areas, _ in wall_nodes(model))
+    return model.size * float(volumes.sum()) / (len(points) * surface)

@@ -15,6 +15,7 @@ from sketchloft.brep.clearance import check_walls
 from sketchloft.brep.explore import faces_of
 from sketchloft.brep.facts import SolidFacts, solid_facts
 from sketchloft.brep.kernel import CONFUSION
+from sketchloft.brep.precision import check_precise
 from sketchloft.brep.solid import Solid
 from sketchloft.cloud import Floats
 from sketchloft.errors import ModelError
@@ -48,9 +49,9 @@ def check_stack(solid: Solid, stack: Stack) -> SolidFacts:
     Raises
     ------
     ModelError
-        If walls of a run meet (`check_walls`); if the solid is not one closed shell or the kernel finds it
-        invalid; if its volume, integrated over its faces, differs from that of the stack's sections;
-        if one of its faces is neither on a wall nor at a break.
+        If walls of a run meet (`check_walls`); if the solid is not one closed shell, the kernel finds it
+        invalid, or its faces do not meet closely; if its volume, integrated over its faces, differs from
+        that of the stack's sections; if one of its faces is neither on a wall nor at a break.
 
     Notes
     -----
@@ -58,6 +59,7 @@ def check_stack(solid: Solid, stack: Stack) -> SolidFacts:
     """
     check_walls(stack)
     check_closed(solid)
+    check_precise(solid)
     facts = solid_facts(solid)
     expected = stack_volume(stack)
     if not abs(facts.volume - expected) <= VOLUME_TOLERANCE * expected:

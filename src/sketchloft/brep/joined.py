@@ -23,21 +23,27 @@ __all__ = ["joined"]
 _BUILD = BRep_Builder()
 
 
-def joined(blocks: Sequence[Block], fuzzy: float = 0.0) -> TopoDS_Solid:
+def joined(blocks: Sequence[Block], tolerance: float = 1e-6) -> TopoDS_Solid:
     """Join blocks to a solid; neighbouring faces on a common surface become one.
 
     Parameters
     ----------
     blocks : sequence of Block
         From the lowest to the highest.
-    fuzzy : float
-        Edges nearer to each other than this become one.
+    tolerance : float
+        Distance up to which rims of neighbouring blocks are taken for one.
     """
     walls = [face for block in blocks for face in block.walls]
     closing = [*blocks[0].bottom, *blocks[-1].top]
     if len(blocks) == 1:
         return solid_of([*walls, *closing])
-    seams = [ledges(below.top, above.bottom, fuzzy) for below, above in pairwise(blocks)]
+    seams = [
+        ledges(below.top, above.bottom, tolerance)
+        for below, above in pairwise(blocks)
+        if below.top and above.bottom
+    ]
+    closing += [face for below, above in pairwise(blocks) if not above.bottom for face in below.top]
+    closing += [face for below, above in pairwise(blocks) if not below.top for face in above.bottom]
     ledge_faces = [face for seam in seams for face in seam.faces]
     faces = _with_shared_edges([*walls, *closing], seams)
     unify = ShapeUpgrade_UnifySameDomain(solid_of([*faces, *ledge_faces]), True, True, False)

@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import defaultdict
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
-from OCP.BOPTools import BOPTools_AlgoTools
-from OCP.BRepAlgoAPI import BRepAlgoAPI_BuilderAlgo
-from OCP.collections import IndexedMap_TopoDS_Shape_TopTools_ShapeMapHasher, List_TopoDS_Shape
-from OCP.IntTools import IntTools_Context
-from OCP.TopAbs import TopAbs_Orientation
-from OCP.TopoDS import TopoDS, TopoDS_Edge, TopoDS_Face, TopoDS_Shape, TopoDS_Vertex
+import numpy as np
+from OCP.BRep import BRep_Builder, BRep_Tool
+from OCP.TopoDS import TopoDS, TopoDS_Edge, TopoDS_Face, TopoDS_Vertex
 
-from sketchloft.brep.explore import edges_of, vertices_of
+from sketchloft.brep.explore import vertices_of
+from sketchloft.brep.overlay import Overlay, Piece, overlay
+from sketchloft.brep.region_faces import Walk, region_faces
+from sketchloft.brep.rim_edges import corners_of, edge_of, widen
+from sketchloft.brep.section_rims import Section, section_of
+from sketchloft.errors import ModelError
 
 __all__ = ["Ledges", "ledges"]
+
+_BUILD = BRep_Builder()
 
 
 @dataclass(frozen=True)
@@ -25,83 +30,115 @@ class Ledges:
     ----------
     faces : list of TopoDS_Face
         What is left open, normals out of the solid: upwards where the lower section reaches farther.
-    touching : bool
-        Whether the sections overlap at all.
     edges : list of (TopoDS_Edge, list of TopoDS_Edge)
-        Rims and what replaces them, in the sense of the rim.
+        Rims and what replaces them, in the sense of the rim's curve.
     vertices : list of (TopoDS_Vertex, TopoDS_Vertex)
     """
 
     faces: list[TopoDS_Face]
-    touching: bool
     edges: list[tuple[TopoDS_Edge, list[TopoDS_Edge]]]
     vertices: list[tuple[TopoDS_Vertex, TopoDS_Vertex]]
 
 
-def ledges(below: Sequence[TopoDS_Face], above: Sequence[TopoDS_Face], fuzzy: float = 0.0) -> Ledges:
-    """Overlay the section that ends at a break and the one that starts there.
+def ledges(below: Sequence[TopoDS_Face], above: Sequence[TopoDS_Face], tolerance: float) -> Ledges:
+    """Lay the section that ends at a break and the one that starts there upon each other.
 
     Parameters
     ----------
     below, above : sequence of TopoDS_Face
         Level faces at the same height: the top of the run below and the bottom of the one above.
-    fuzzy : float
-        Edges nearer to each other than this become one.
+    tolerance : float
+        Distance up to which rims are taken for one.
+
+    Raises
+    ------
+    ModelError
+        If the sections run together in a way that the tolerance leaves ambiguous.
 
     Notes
     -----
-    Only faces in one plane are cut with each other, never the walls, so that it is quick and sure.
+    Only the sections are cut with each other, never the walls, and not by the kernel's general boolean
+    operation: where free curves run within a thousandth of each other that fails, or takes for ever.
     """
-    overlay = BRepAlgoAPI_BuilderAlgo()
-    overlay.SetArguments(_list([*below, *above]))
-    overlay.SetFuzzyValue(fuzzy)
-    overlay.Build()
-    lower = [part for face in below for part in _images(overlay, face)]
-    upper = [part for face in above for part in _images(overlay, face)]
-    in_lower, in_upper = _index(lower), _index(upper)
-    left = [part for part in lower if not in_upper.Contains(part)]
-    left += [part for part in upper if not in_lower.Contains(part)]
-    context = IntTools_Context()
-    rims = _index([edge for face in (*below, *above) for edge in edges_of(face)])
-    edges = []
-    for i in range(1, rims.Extent() + 1):
-        rim = TopoDS.Edge(rims.FindKey(i).Oriented(TopAbs_Orientation.TopAbs_FORWARD))
-        parts = _images(overlay, rim)
-        if not (len(parts) == 1 and parts[0].IsSame(rim)):
-            edges.append((rim, [_along(TopoDS.Edge(part), rim, context) for part in parts]))
-    corners = _index([corner for face in (*below, *above) for corner in vertices_of(face)])
-    vertices = []
-    for i in range(1, corners.Extent() + 1):
-        corner = corners.FindKey(i)
-        (image,) = _images(overlay, corner)
-        if not image.IsSame(corner):
-            vertices.append((TopoDS.Vertex(corner), TopoDS.Vertex(image)))
-    touching = len(left) < len(lower) + len(upper)
-    return Ledges([TopoDS.Face(part) for part in left], touching, edges, vertices)
+    height = BRep_Tool.Pnt_s(vertices_of(below[0])[0]).Z()
+    lower, upper = section_of(below), section_of(above)
+    cut = overlay(lower, upper, tolerance)
+    corners, vertices = corners_of(cut, lower, upper, height)
+    low = [edge_of(lower.rims[piece.rim], piece, corners) for piece in cut.below]
+    twins = _twins(cut, lower, upper)
+    high = []
+    for i, piece in enumerate(cut.above):
+        if i in twins:
+            twin, along = twins[i]
+            widen(low[twin], max(piece.away, cut.below[twin].away))
+            high.append(low[twin] if along else TopoDS.Edge(low[twin].Reversed()))
+        else:
+            high.append(edge_of(upper.rims[piece.rim], piece, corners))
+    back_to_back = {
+        (twin, i)
+        for i, (twin, along) in twins.items()
+        if lower.rims[cut.below[twin].rim].ahead != (upper.rims[cut.above[i].rim].ahead == along)
+    }
+    walked = _Walked(lower, cut.below, low), _Walked(upper, cut.above, high)
+    up = walked[0].outside({twin for twin, _ in back_to_back}) + walked[1].inside()
+    down = walked[1].outside({i for _, i in back_to_back}) + walked[0].inside()
+    faces = region_faces(up, height)
+    faces += [TopoDS.Face(face.Reversed()) for face in region_faces(down, height)]
+    return Ledges(faces, walked[0].replaced() + walked[1].replaced(), vertices)
 
 
-def _images(overlay: BRepAlgoAPI_BuilderAlgo, shape: TopoDS_Shape) -> list[TopoDS_Shape]:
-    """What a part of an argument has become; itself where nothing has changed."""
-    return list(overlay.Modified(shape)) or [shape]
+@dataclass(frozen=True)
+class _Walked:
+    """The pieces of a section with their edges, each in the sense of the rim's curve."""
+
+    section: Section
+    pieces: Sequence[Piece]
+    edges: Sequence[TopoDS_Edge]
+
+    def outside(self, others: Collection[int]) -> list[Walk]:
+        """Walks along what is outside the other section, and some more pieces, the section on the left."""
+        return [
+            self._walk(i, turned=False)
+            for i, piece in enumerate(self.pieces)
+            if piece.place == "out" or i in others
+        ]
+
+    def inside(self) -> list[Walk]:
+        """Walks along what is inside the other section, this one on the right."""
+        return [self._walk(i, turned=True) for i, piece in enumerate(self.pieces) if piece.place == "in"]
+
+    def _walk(self, i: int, *, turned: bool) -> Walk:
+        piece, edge = self.pieces[i], self.edges[i]
+        rim = self.section.rims[piece.rim]
+        if rim.ahead != turned:
+            return Walk(edge, rim.curve, piece.start, piece.end, piece.nodes)
+        back = TopoDS.Edge(edge.Reversed())
+        return Walk(back, rim.curve, piece.end, piece.start, piece.nodes[::-1])
+
+    def replaced(self) -> list[tuple[TopoDS_Edge, list[TopoDS_Edge]]]:
+        """Rims that are not one piece with an edge of its own, and what replaces them."""
+        parts: dict[int, list[TopoDS_Edge]] = defaultdict(list)
+        for piece, edge in zip(self.pieces, self.edges, strict=True):
+            parts[piece.rim].append(edge)
+        rims = [(self.section.rims[rim].edge, found) for rim, found in parts.items()]
+        return [(rim, found) for rim, found in rims if not (len(found) == 1 and found[0].IsSame(rim))]
 
 
-def _along(part: TopoDS_Edge, rim: TopoDS_Edge, context: IntTools_Context) -> TopoDS_Edge:
-    """The part in the sense of the rim it is of."""
-    part = TopoDS.Edge(part.Oriented(TopAbs_Orientation.TopAbs_FORWARD))
-    if BOPTools_AlgoTools.IsSplitToReverse_s(part, rim, context, 0):
-        return TopoDS.Edge(part.Reversed())
-    return part
-
-
-def _index(shapes: Sequence[TopoDS_Shape]) -> IndexedMap_TopoDS_Shape_TopTools_ShapeMapHasher:
-    index = IndexedMap_TopoDS_Shape_TopTools_ShapeMapHasher()
-    for shape in shapes:
-        index.Add(shape)
-    return index
-
-
-def _list(shapes: Sequence[TopoDS_Shape]) -> List_TopoDS_Shape:
-    made = List_TopoDS_Shape()
-    for shape in shapes:
-        made.Append(shape)
-    return made
+def _twins(cut: Overlay, lower: Section, upper: Section) -> dict[int, tuple[int, bool]]:
+    """For each upper piece on a lower one that one's number, and whether their curves run the same way."""
+    ons = [i for i, piece in enumerate(cut.above) if piece.place == "on"]
+    middles = np.array([(cut.above[i].start + cut.above[i].end) / 2 for i in ons])
+    found = {}
+    for i, middle in zip(ons, middles, strict=True):
+        piece = cut.above[i]
+        curve = upper.rims[piece.rim].curve
+        feet = lower.feet(curve.at(np.array([middle])))
+        rim, at = int(feet.rim[0]), float(feet.at[0])
+        for j, other in enumerate(cut.below):
+            fits = other.place == "on" and set(other.nodes) == set(piece.nodes)
+            if fits and other.rim == rim and other.start < at < other.end:
+                slopes = curve.at(np.array([middle]), 1), lower.rims[rim].curve.at(np.array([at]), 1)
+                found[i] = (j, float((slopes[0] * slopes[1]).sum()) > 0)
+    if not len(found) == len(ons) == sum(piece.place == "on" for piece in cut.below):
+        raise ModelError("the sections at the break nearly coincide; make them equal, or clearly different")
+    return found

@@ -8,7 +8,9 @@ from itertools import pairwise
 import numpy as np
 from OCP.BRep import BRep_Tool
 from OCP.BRepPrimAPI import BRepPrimAPI_MakeRevol
-from OCP.Geom import Geom_Circle, Geom_Line, Geom_Plane
+from OCP.Convert import Convert_ParameterisationType
+from OCP.Geom import Geom_Circle, Geom_Line, Geom_Plane, Geom_TrimmedCurve
+from OCP.GeomConvert import GeomConvert
 from OCP.gp import gp_Ax1, gp_Ax2, gp_Ax3, gp_Dir
 from OCP.TopoDS import TopoDS_Edge, TopoDS_Face, TopoDS_Vertex
 
@@ -97,7 +99,17 @@ def _curve(piece: Piece, centre: Floats) -> CurvePart:
             spokes = -side * (np.array([piece.start, piece.end]) - middle)
             angles = np.mod(np.arctan2(spokes[:, 1], spokes[:, 0]), 2 * np.pi)
             axes = gp_Ax2(point(half_plane_point(middle, centre)), gp_Dir(0, -1, 0), gp_Dir(-side, 0, 0))
-            return CurvePart(Geom_Circle(axes, radius), float(angles[0]), float(angles[1]))
+            first, last = angles.tolist()
+            circle = Geom_Circle(axes, radius)
+            if offset is None or offset >= radius:
+                return CurvePart(circle, first, last)
+            # The whole torus would cut itself; as a free curve files keep the part of it that is meant.
+            spline = GeomConvert.CurveToBSplineCurve_s(
+                Geom_TrimmedCurve(circle, min(first, last), max(first, last)),
+                Convert_ParameterisationType.Convert_QuasiAngular,
+            )
+            ends = spline.FirstParameter(), spline.LastParameter()
+            return CurvePart(spline, *(ends if first < last else ends[::-1]))
         case SplineProfile(knots, radii):
             p = SplineProfile.degree
             profile = np.column_stack([radii, greville(knots, p)])

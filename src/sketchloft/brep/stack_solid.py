@@ -6,26 +6,20 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from sketchloft.brep.block import Block
 from sketchloft.brep.check import check_closed
 from sketchloft.brep.clearance import check_walls
 from sketchloft.brep.joined import joined
-from sketchloft.brep.meridian import Piece, Straight, meridian
 from sketchloft.brep.pieces import check_pieces
-from sketchloft.brep.revolved_block import revolved_block
-from sketchloft.brep.run_block import run_block
+from sketchloft.brep.precision import check_precise
 from sketchloft.brep.solid import Solid
-from sketchloft.cloud import Floats
+from sketchloft.brep.stack_blocks import Group, block_of, groups_of
 from sketchloft.errors import ModelError
-from sketchloft.stack import Run, Stack
-from sketchloft.wall.revolved import Revolved
+from sketchloft.stack import Stack
 
 __all__ = ["stack_solid"]
 
-FUZZY = (1e-6, 1e-5, 0.0)
-"""Distances up to which edges are taken for one, tried in this order."""
-COAXIAL = 1e-9
-"""Distance of axes, as a share of the size, up to which they are one."""
+TOLERANCES = (1e-6, 1e-5, 1e-7, 3e-6)
+"""Distances up to which rims are taken for one, tried in this order."""
 
 
 def stack_solid(stack: Stack) -> Solid:
@@ -45,56 +39,21 @@ def stack_solid(stack: Stack) -> Solid:
     Raises
     ------
     ModelError
-        If the runs do not make one solid; the message names the break.
+        If the runs do not make one solid; the message names the run or the break.
 
     Notes
     -----
     Neighbouring runs of coaxial revolved walls are one turned profile, whose pieces meet exactly. Other runs
-    are made each on its own, of faces that share their edges, and united.
+    are made each on its own, of faces that share their edges, and joined where their sections meet.
     """
     size = _size(stack)
-    groups = _groups(stack.runs)
-    for fuzzy in FUZZY:
-        solid = Solid(joined([_block(stack, *group, size) for group in groups], fuzzy))
-        if _is_valid(solid):
+    groups = groups_of(stack.runs)
+    for tolerance in TOLERANCES:
+        solid = _attempt(stack, groups, size, tolerance)
+        if solid is not None:
             return solid
     _explain(stack, groups, size)
-    raise ModelError("the CAD kernel cannot join the runs; choose other breaks")
-
-
-def _is_valid(solid: Solid) -> bool:
-    try:
-        check_closed(solid)
-    except ModelError:
-        return False
-    return True
-
-
-def _explain(stack: Stack, groups: list[tuple[int, int]], size: float) -> None:
-    """Raise what is wrong with the first run or break that makes no valid solid by itself."""
-    check_walls(stack)
-    blocks = [_block(stack, *group, size) for group in groups]
-    check_pieces(joined(blocks))
-    for (first, last), block in zip(groups, blocks, strict=True):
-        if not _is_valid(Solid(joined([block]))):
-            low, high = stack.breaks[[first, last]]
-            raise ModelError(
-                f"the walls between the heights {low:.4g} and {high:.4g} make no valid solid: a section "
-                "there crosses itself or another one; choose another kind of wall"
-            )
-    for i, (first, _) in enumerate(groups[1:], start=1):
-        if not _is_valid(Solid(joined([_block(stack, *group, size) for group in groups[i - 1 : i + 1]]))):
-            raise ModelError(
-                f"the runs do not join at the break at height {stack.breaks[first]:.4g}: their sections "
-                "touch in a point or a line, or nearly coincide; make them equal there, or clearly different"
-            )
-
-
-def _block(stack: Stack, first: int, last: int, size: float) -> Block:
-    breaks = stack.breaks[first : last + 1]
-    if _centre(stack.runs[first]) is None:
-        return run_block(stack.runs[first], float(breaks[0]), float(breaks[1]), size)
-    return _turned(stack.runs[first:last], breaks, size)
+    raise ModelError("the CAD kernel cannot join the runs to a valid solid; choose other breaks")
 
 
 def _size(stack: Stack) -> float:
@@ -104,34 +63,36 @@ def _size(stack: Stack) -> float:
     return float(np.linalg.norm(np.ptp(np.concatenate(points), axis=0)))
 
 
-def _centre(run: Run) -> Floats | None:
-    """Common axis of a run's wall and its one hole, if it has any; None for other runs."""
-    walls = run.walls
-    if len(walls) - run.holes != 1 or run.holes > 1 or not all(isinstance(wall, Revolved) for wall in walls):
+def _attempt(stack: Stack, groups: Sequence[Group], size: float, tolerance: float) -> Solid | None:
+    """The solid of some groups, or None if it is not valid."""
+    try:
+        solid = Solid(joined([block_of(stack, group, size) for group in groups], tolerance))
+        check_closed(solid)
+        check_precise(solid)
+    except ModelError:
         return None
-    centres = [wall.centre for wall in walls if isinstance(wall, Revolved)]
-    return centres[0] if np.abs(centres[-1] - centres[0]).max() <= COAXIAL else None
+    except Exception as error:  # the kernel's own errors share no base
+        if not type(error).__module__.startswith("OCP"):
+            raise
+        return None
+    return solid
 
 
-def _groups(runs: Sequence[Run]) -> list[tuple[int, int]]:
-    """First and last-but-one index of the runs that are one turned profile; others are by themselves."""
-    groups = [(0, 1)]
-    for i, run in enumerate(runs[1:], start=1):
-        here, before = _centre(run), _centre(runs[i - 1])
-        if here is not None and before is not None and np.abs(here - before).max() <= COAXIAL:
-            groups[-1] = (groups[-1][0], i + 1)
-        else:
-            groups.append((i, i + 1))
-    return groups
-
-
-def _turned(runs: Sequence[Run], breaks: Floats, size: float) -> Block:
-    walls = [[wall for wall in run.walls if isinstance(wall, Revolved)] for run in runs]
-    outer = meridian([pair[0].profile for pair in walls], breaks, size)
-    inner_profiles = [pair[1].profile if len(pair) > 1 else Straight() for pair in walls]
-    if any(len(pair) > 1 for pair in walls):
-        inner = meridian(inner_profiles, breaks, size)
-    else:
-        foot, head = (np.array([0.0, piece[1]]) for piece in (outer[0].start, outer[-1].end))
-        inner = [Piece(Straight(), foot, head)]
-    return revolved_block(outer, inner, walls[0][0].centre)
+def _explain(stack: Stack, groups: Sequence[Group], size: float) -> None:
+    """Raise what is wrong with the first run or break that makes no valid solid by itself."""
+    check_walls(stack)
+    for group in groups:
+        if _attempt(stack, [group], size, TOLERANCES[0]) is None:
+            low, high = stack.breaks[[*group]]
+            check_pieces(joined([block_of(stack, group, size)]))
+            raise ModelError(
+                f"the walls between the heights {low:.4g} and {high:.4g} make no valid solid: a section "
+                "there crosses itself or another one; choose another kind of wall"
+            )
+    check_pieces(joined([block_of(stack, group, size) for group in groups]))
+    for i in range(1, len(groups)):
+        if all(_attempt(stack, groups[i - 1 : i + 1], size, tolerance) is None for tolerance in TOLERANCES):
+            raise ModelError(
+                f"the runs do not join at the break at height {stack.breaks[groups[i][0]]:.4g}: their "
+                "sections touch in a point or line, or nearly coincide; make them equal, or clearly different"
+            )

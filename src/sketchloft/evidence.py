@@ -146,7 +146,9 @@ def _tried(
     low = -np.inf if runs.start <= 1 else breaks[runs.start - 1]
     high = np.inf if runs.stop >= len(breaks) - 2 else breaks[runs.stop + 1]
     near = points[(points[:, 2] > low) & (points[:, 2] < high)]
-    near = near[beside_walls(near, model, BESIDE * model.sigma) | beside_walls(near, candidate, BESIDE * model.sigma)]
+    near = near[
+        beside_walls(near, model, BESIDE * model.sigma) | beside_walls(near, candidate, BESIDE * model.sigma)
+    ]
     if not len(near):
         return None
     old = value_of(near, model) / together - _price(model, len(points), together)
@@ -291,7 +293,10 @@ def _tangents(model: ExactModel) -> list[tuple[tuple[int, int, int], tuple[int, 
     """Radii of spheres and of the cylinders they run into."""
     place = {"cylinder": 2, "sphere": 3}
     return [
-        ((k - 1, 0, place[model.stack.runs[k - 1].walls[0].kind]), (k, 0, place[model.stack.runs[k].walls[0].kind]))
+        (
+            (k - 1, 0, place[model.stack.runs[k - 1].walls[0].kind]),
+            (k, 0, place[model.stack.runs[k].walls[0].kind]),
+        )
         for k, join in enumerate(model.joins)
         if join == "tangent"
     ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
@@ -96,9 +97,15 @@ class ExactBody:
     facts: SolidFacts
 
 
-def exact_body(  # noqa: PLR0913
-    name: str, points: Floats, origin: Floats, axis: Axis, params: ExactParams, progress
-) -> ExactBody:  # type: ignore[no-untyped-def]
+def exact_body(
+    name: str,
+    points: Floats,
+    origin: Floats,
+    *,
+    axis: Axis,
+    params: ExactParams,
+    progress: Callable[[str], None],
+) -> ExactBody:
     """Model a body.
 
     Parameters
@@ -176,7 +183,7 @@ def _start(points: Floats, params: ExactParams) -> tuple[Floats, ExactModel, flo
     density = inside_density(points, grid, together)
     cuts = segments(kept, params.segments, together)
     space = ROOM * float(np.prod(np.ptp(points, axis=0)))
-    first = first_stack(kept, cuts, grid.blur, START, together, density, space)
+    first = first_stack(kept, cuts, grid.blur, sigma=START, together=together, density=density, space=space)
     return None if first is None else (cuts, first, together)
 
 

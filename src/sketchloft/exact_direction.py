@@ -80,68 +80,61 @@ def exact_direction(
     H. Pottmann, T. Randrup, Rotational and helical surface approximation for reverse engineering,
     Computing 60 (1998) 307-322.
     """
-    at, normals = walls = _wall_normals(grid)
+    at, normals = _wall_normals(grid)
     sphere = _half_sphere(SPHERE)
-    found: list[tuple[Floats, str]] = [
-        (axis, "principal") for axis in np.linalg.eigh(points.T @ points)[1].T
-    ]
-    for source, score in (
-        ("extrusion", _extrusion(sphere, normals)),
-        ("revolution", _revolution(sphere, at, normals)),
-        ("caps", _caps(sphere, normals)),
-    ):
-        for start in _peaks(sphere, score):
-            found.append((REFINE[source](start, at, normals), source))
+    scores = {
+        "extrusion": _extrusion(sphere, normals),
+        "revolution": _revolution(sphere, at, normals),
+        "caps": _caps(sphere, normals),
+    }
+    found = [(axis, "principal") for axis in np.linalg.eigh(points.T @ points)[1].T]
+    for source, score in scores.items():
+        found += [(REFINE[source](start, at, normals), source) for start in _peaks(sphere, score)]
     coarse = replace(params, most_bins=BINS, shortest=SHORTEST, price=PRICE)
-    sample = points[:: len(points) // MOST_POINTS + 1]
+    judge = _Judge(points[:: len(points) // MOST_POINTS + 1], at, normals, coarse, together)
     candidates: list[Candidate] = []
     for vector, source in found:
         if all(abs(float(vector @ other.vector)) < SAME for other in candidates):
-            candidates.append(_judged(sample, vector, source, coarse, together, walls))
+            candidates.append(judge(vector, source))
     candidates.sort(key=lambda candidate: -candidate.value)
     for i in range(min(REFINED, len(candidates))):
         start = candidates[i]
-        by_normals = [REFINE[name](start.vector, at, normals) for name in REFINE]
-        others = [_judged(sample, vector, start.source, coarse, together, walls) for vector in by_normals]
-        start = max([start, *others], key=lambda candidate: candidate.value)
-        candidates[i] = _refined(sample, start, coarse, together, walls)
+        others = [judge(refine(start.vector, at, normals), start.source) for refine in REFINE.values()]
+        candidates[i] = _refined(max([start, *others], key=lambda other: other.value), judge)
     candidates.sort(key=lambda candidate: -candidate.value)
     return tuple(candidates)
 
 
-def _judged(
-    points: Floats,
-    vector: Floats,
-    source: str,
-    params: SegmentsParams,
-    together: float,
-    walls: tuple[Floats, Floats],
-) -> Candidate:
-    """Favour what is revolved or extruded as a whole: of equal directions it has the simplest sections."""
-    frame = frame_along(vector, points)
-    value = rule_likelihood(frame.to_local(points), params, together)
-    along = frame.direction[None]
-    share = max(float(_revolution(along, *walls)[0]), float(_extrusion(along, walls[1])[0]))
-    return Candidate(frame.direction, value + SYMMETRY * share, source)
+@dataclass(frozen=True)
+class _Judge:
+    """Says how good a direction is for a sample of points and the walls around them."""
+
+    points: Floats
+    at: Floats
+    normals: Floats
+    params: SegmentsParams
+    together: float
+
+    def __call__(self, vector: Floats, source: str) -> Candidate:
+        """Favour what is revolved or extruded as a whole: of equals it has the simplest sections."""
+        frame = frame_along(vector, self.points)
+        value = rule_likelihood(frame.to_local(self.points), self.params, self.together)
+        along = frame.direction[None]
+        revolved = float(_revolution(along, self.at, self.normals)[0])
+        share = max(revolved, float(_extrusion(along, self.normals)[0]))
+        return Candidate(frame.direction, value + SYMMETRY * share, source)
 
 
-def _refined(
-    points: Floats,
-    candidate: Candidate,
-    params: SegmentsParams,
-    together: float,
-    walls: tuple[Floats, Floats],
-) -> Candidate:
+def _refined(candidate: Candidate, judge: _Judge) -> Candidate:
     """Tilt a candidate, less and less, as long as it gets better."""
     for angle in LEANS:
-        frame = frame_along(candidate.vector, points)
-        around = [candidate]
-        for turn in np.arange(4) * np.pi / 2:
-            lean = angle * (np.cos(turn) * frame.axes[0] + np.sin(turn) * frame.axes[1])
-            around.append(
-                _judged(points, candidate.vector + lean, candidate.source, params, together, walls)
-            )
-        candidate = max(around, key=lambda other: other.value)
+        frame = frame_along(candidate.vector, judge.points)
+        leans = [
+            angle * (np.cos(turn) * frame.axes[0] + np.sin(turn) * frame.axes[1])
+            for turn in np.arange(4) * np.pi / 2
+        ]
+        around = [judge(candidate.vector + lean, candidate.source) for lean in leans]
+        candidate = max([candidate, *around], key=lambda other: other.value)
     return candidate
 
 
@@ -152,7 +145,7 @@ def _wall_normals(grid: LevelSet) -> tuple[Floats, Floats]:
     level = ndimage.gaussian_filter(grid.level, SMOOTHER)
     index = np.argwhere(np.abs(level - 0.5) < 0.2)
     gradient = np.stack(
-        [axis[tuple(index.T)] for axis in np.gradient(level.astype(np.float64))], axis=1
+        [np.asarray(slope)[tuple(index.T)] for slope in np.gradient(level.astype(np.float64))], axis=1
     )
     steep = np.linalg.norm(gradient, axis=1)
     keep = steep > 0.4 * np.median(steep)
@@ -173,7 +166,7 @@ def _half_sphere(count: int) -> Floats:
 def _extrusion(directions: Floats, normals: Floats) -> Floats:
     """Share of the wall that lies along or across each direction."""
     along = np.abs(directions @ normals.T)
-    return np.asarray(_soft(along) .mean(axis=1) + _soft(1 - along, 0.03).mean(axis=1))
+    return np.asarray(_soft(along).mean(axis=1) + _soft(1 - along, 0.03).mean(axis=1))
 
 
 def _revolution(directions: Floats, at: Floats, normals: Floats) -> Floats:
@@ -204,22 +197,25 @@ def _peaks(directions: Floats, score: Floats) -> list[Floats]:
     return peaks
 
 
-def _refined_extrusion(start: Floats, _: Floats, normals: Floats) -> Floats:
+def _refined_extrusion(start: Floats, at: Floats, normals: Floats) -> Floats:
     """Direction most at right angles to the walls along it, walls across it left out."""
+    del at  # where the walls are does not matter
     vector = start
     for _ in range(8):
-        along = normals @ vector
+        along: Floats = normals @ vector
         weight = np.where(np.abs(along) < 0.5, _soft(along) ** 2, 0.0)
         if weight.sum() < 10:
             return vector
         matrix = (weight[:, None] * normals).T @ normals
         _, axes = np.linalg.eigh(matrix)
-        vector = axes[:, 0] if abs(float(axes[:, 0] @ vector)) > 0.8 else vector
+        least: Floats = axes[:, 0]
+        vector = least if abs(float(least @ vector)) > 0.8 else vector
     return vector
 
 
-def _refined_caps(start: Floats, _: Floats, normals: Floats) -> Floats:
+def _refined_caps(start: Floats, at: Floats, normals: Floats) -> Floats:
     """Mean normal of the flat walls across a direction."""
+    del at  # where the walls are does not matter
     vector = start
     for _ in range(5):
         along = normals @ vector

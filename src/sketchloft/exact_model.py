@@ -125,7 +125,7 @@ def model_of(stack: Stack, sigma: float, density: Density, stray: float, space: 
             row.append(np.arange(at, at + count))
             at += count
         slots.append(tuple(row))
-    joins: tuple[Join, ...] = ("step",) * len(stack.breaks)
+    joins: tuple[Join, ...] = tuple("step" for _ in stack.breaks)
     return ExactModel(stack, tuple(slots), sigma, density, stray, space, joins)
 
 
@@ -141,5 +141,3 @@ def tied(model: ExactModel, pairs: list[tuple[tuple[int, int, int], tuple[int, i
     np.add.at(mean, index, model.vector)
     mean /= np.bincount(index)
     return replace(model, slots=slots).moved(mean, model.stack.breaks)
-
-

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 
 from sketchloft.cloud import Floats
@@ -16,7 +18,14 @@ FEWEST = 60
 
 
 def first_stack(
-    points: Floats, cuts: Floats, blur: float, sigma: float, together: float, density: Density, space: float
+    points: Floats,
+    cuts: Floats,
+    blur: float,
+    *,
+    sigma: float,
+    together: float,
+    density: Density,
+    space: float,
 ) -> ExactModel | None:
     """Model of the segments between cuts (k + 1,), from points (n, 3) without strays.
 
@@ -25,7 +34,8 @@ def first_stack(
     """
     runs: list[Run] = []
     breaks: list[float] = []
-    for low, high in zip(cuts[:-1], cuts[1:], strict=True):
+    last = float(cuts[0])
+    for low, high in itertools.pairwise(cuts.tolist()):
         margin = min(blur, (high - low) / 5)
         ends = float(low + margin), float(high - margin)
         inner = points[(points[:, 2] > ends[0]) & (points[:, 2] < ends[1])]
@@ -33,7 +43,7 @@ def first_stack(
         if found is None:
             continue
         runs.append(found[0])
-        breaks.append(float(low) if not breaks else (float(low) + last) / 2)
+        breaks.append((float(low) + last) / 2)
         last = float(high)
     if not runs:
         return None

@@ -26,7 +26,7 @@ def log_likelihood(points: Floats, model: ExactModel, *, caps: bool = True) -> f
     return value_of(points, model, caps=caps) - model.stray * model.space
 
 
-def climb(  # noqa: PLR0913
+def climb(
     points: Floats,
     model: ExactModel,
     steps: int,

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from sketchloft.cloud import Floats
+from sketchloft.cloud import Floats, Ints
 from sketchloft.exact_model import ExactModel
 from sketchloft.outline.circle import Circle
 from sketchloft.outline.ellipse import Ellipse
@@ -21,7 +21,16 @@ from sketchloft.wall.profile import ArcProfile, SplineProfile
 from sketchloft.wall.revolved import Revolved
 from sketchloft.wall.swept import Swept
 
-__all__ = ["Evaluation", "beside_walls", "evaluate", "mass_nodes", "share_of", "sound", "value_of", "wall_nodes"]
+__all__ = [
+    "Evaluation",
+    "beside_walls",
+    "evaluate",
+    "mass_nodes",
+    "share_of",
+    "sound",
+    "value_of",
+    "wall_nodes",
+]
 
 REACH = 5.0
 """Noise deviations beyond which a wall is taken to be a sharp step."""
@@ -132,7 +141,11 @@ def _covers(wall: Wall, low: float, high: float) -> bool:
         ends = wall.knots[0], wall.knots[-1]
     if isinstance(wall, Revolved) and isinstance(wall.profile, SplineProfile):
         ends = wall.profile.knots[0], wall.profile.knots[-1]
-    if isinstance(wall, Revolved) and isinstance(wall.profile, ArcProfile) and wall.profile.offset is not None:
+    if (
+        isinstance(wall, Revolved)
+        and isinstance(wall.profile, ArcProfile)
+        and wall.profile.offset is not None
+    ):
         ends = wall.profile.height - wall.profile.radius, wall.profile.height + wall.profile.radius
     return bool(ends[0] <= low and high <= ends[1])
 
@@ -152,13 +165,13 @@ def _inside(
     slope = np.zeros((len(points), walls + k + 3)) if gradient else np.zeros((0, 0))
     reach = np.zeros(walls + k + 3)
     reach[walls:] = 1.0
-    for j, run in enumerate(stack.runs):
+    for j in range(len(stack.runs)):
         low, high = heights[j] - REACH * sigma, heights[j + 1] + REACH * sigma
         near = np.flatnonzero((z > low) & (z < high))
         if not len(near):
             continue
         between = step[near, j + 1] - step[near, j]
-        part, part_slope, tilt, grown = _section(points[near], model, j, run, sigma, gradient)
+        part, part_slope, tilt, grown = _section(points[near], model, j, sigma, gradient=gradient)
         inside[near] += between * part
         if not gradient:
             continue
@@ -179,9 +192,10 @@ def _inside(
 
 
 def _section(
-    points: Floats, model: ExactModel, j: int, run: Run, sigma: float, gradient: bool
-) -> tuple[Floats, list[tuple[Floats, Floats, Floats]], Floats, Floats]:
+    points: Floats, model: ExactModel, j: int, sigma: float, *, gradient: bool
+) -> tuple[Floats, list[tuple[Ints, Floats, Floats]], Floats, Floats]:
     """Soft indicator of a run's section, its derivatives by each wall, by the tilt and by log sigma."""
+    run = model.stack.runs[j]
     from scipy.special import ndtr  # noqa: PLC0415
 
     feet = [wall.foot(points) for wall in run.walls]
@@ -200,7 +214,7 @@ def _section(
         if sign < 0:
             voids = voids * s
     tilt, grown = np.zeros((len(points), 2)), np.zeros(len(points))
-    slopes: list[tuple[Floats, Floats, Floats]] = []
+    slopes: list[tuple[Ints, Floats, Floats]] = []
     if not gradient:
         return outer * voids, slopes, tilt, grown
     for i, foot in enumerate(feet):
@@ -281,7 +295,9 @@ def _section_mass(model: ExactModel, run: Run, height: float) -> float:
     total, thin = 0.0, 1e-6
     for i, wall in enumerate(run.walls):
         if len(model.density.coefficients) == 1:
-            total += run.sign(i) * float(wall.area(np.array([height]))[0]) * model.density.at(np.zeros((1, 3)))[0]
+            total += (
+                run.sign(i) * float(wall.area(np.array([height]))[0]) * model.density.at(np.zeros((1, 3)))[0]
+            )
             continue
         spread = wall.boundary(height - thin / 2, height + thin / 2, 64)
         points, volumes = _fan(spread.points, spread.normals, spread.areas / thin)

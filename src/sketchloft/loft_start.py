@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 
 from sketchloft.cloud import Floats
@@ -41,8 +43,9 @@ def loft_start(
     inner = points[(points[:, 2] > low) & (points[:, 2] < high)]
     slabs = int(np.clip(len(inner) / (FEWEST * 4), spans + 1, 2 * spans + 3))
     edges = np.linspace(low, high, slabs + 1)
-    heights, rings = [], []
-    for bottom, top in zip(edges[:-1], edges[1:], strict=True):
+    heights: list[float] = []
+    rings: list[Floats] = []
+    for bottom, top in itertools.pairwise(edges):
         slab = inner[(inner[:, 2] >= bottom) & (inner[:, 2] <= top)]
         if len(slab) < FEWEST:
             return None

@@ -205,7 +205,14 @@ def _body(
         return planned_body(points, centre, params.plan.bodies[index], progress, fit=fit)
     if params.method == "exact":
         try:
-            return exact_body(name, points, centre, params.direction.axis, params.exact, progress)
+            return exact_body(
+                name,
+                points,
+                centre,
+                axis=params.direction.axis,
+                params=params.exact,
+                progress=progress,
+            )
         except (StageError, ModelError, np.linalg.LinAlgError) as error:
             return replace(_sliced_and_lofted(name, points, centre, params, progress), instead=str(error))
     return _sliced_and_lofted(name, points, centre, params, progress)

@@ -10,7 +10,6 @@ from sketchloft.cloud import Floats
 from sketchloft.exact_model import Density, ExactModel, model_of
 from sketchloft.fit import climb, fit_density, log_likelihood
 from sketchloft.outline.candidates import chains, circle_of, ellipse_of, polygons, spline_of
-from sketchloft.outline.circle import Circle
 from sketchloft.outline.outline import Outline
 from sketchloft.outline.polygons import Polygon
 from sketchloft.section_contours import contours
@@ -67,9 +66,7 @@ def recognise_section(points: Floats, together: float) -> SectionShape | None:
     )
 
 
-def _best(
-    points: Floats, ring: Floats, blur: float, together: float, *, hole: bool
-) -> tuple[Outline, float]:
+def _best(points: Floats, ring: Floats, blur: float, together: float, *, hole: bool) -> tuple[Outline, float]:
     """Find the best outline for one loop, and how sharp it looks, from the points beside it."""
     near, core, area = _beside(points, ring, BESIDE * blur, hole=hole)
     tried: list[tuple[float, Outline, float]] = []
@@ -110,15 +107,16 @@ def _simpler(polygon: Polygon) -> Polygon:
     """Drop the corner whose triangle with its neighbours is smallest."""
     v = polygon.vertices
     before, after = np.roll(v, 1, axis=0) - v, np.roll(v, -1, axis=0) - v
-    return Polygon(np.delete(v, int(np.argmin(np.abs(before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]))), axis=0))
+    return Polygon(
+        np.delete(v, int(np.argmin(np.abs(before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]))), axis=0)
+    )
 
 
-def _beside(
-    points: Floats, ring: Floats, width: float, *, hole: bool
-) -> tuple[Floats, Floats, float]:
+def _beside(points: Floats, ring: Floats, width: float, *, hole: bool) -> tuple[Floats, Floats, float]:
     """Points within a width of a ring, thinned to `MOST_POINTS`; the area inside left out; that taken."""
     from scipy.spatial import cKDTree  # noqa: PLC0415
-    from shapely import Polygon as Region, contains_xy  # noqa: PLC0415
+    from shapely import Polygon as Region  # noqa: PLC0415
+    from shapely import contains_xy  # noqa: PLC0415
 
     length = float(np.linalg.norm(np.roll(ring, -1, axis=0) - ring, axis=1).sum())
     dense = resampled(ring, int(np.ceil(4 * length / width)))

@@ -7,6 +7,8 @@ the section. Seen along a wrong direction the sections smear, and the likelihood
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 
 from sketchloft.cloud import Floats
@@ -31,7 +33,7 @@ def rule_likelihood(points: Floats, params: SegmentsParams, together: float) -> 
     heights = points[:, 2]
     total = 0.0
     count = len(points)
-    for start, stop in zip(cuts[:-1], cuts[1:], strict=True):
+    for start, stop in itertools.pairwise(cuts):
         inner = points[(heights >= start) & ((heights < stop) | (stop == high))]
         if len(inner) < FEWEST:
             total += len(inner) * -np.log((high - low) * 1.0) if len(inner) else 0.0
@@ -39,9 +41,9 @@ def rule_likelihood(points: Floats, params: SegmentsParams, together: float) -> 
         plan = plan_of(inner, together)
         along = _heights(inner[:, 2], float(start), float(stop))
         across = _places(plan.points)
-        total += float(
-            (np.log(along) + np.log(across) - 2 * np.log(plan.scale)).sum()
-        ) + len(inner) * np.log(len(inner) / count)
+        total += float((np.log(along) + np.log(across) - 2 * np.log(plan.scale)).sum()) + len(inner) * np.log(
+            len(inner) / count
+        )
     price = PER_SEGMENT * (len(cuts) - 1) * np.log(count)
     return float(total - price) / count
 

@@ -127,9 +127,7 @@ def contours(points: Floats, together: float = 1.0) -> tuple[list[Floats], list[
         ring = loops[i] if areas[i] > 0 else loops[i][::-1]
         if np.sign(areas[i]) == outer_sign and abs(areas[i]) > PIECE * largest:
             outer.append(ring)
-        elif np.sign(areas[i]) != outer_sign and _missing(
-            grid, ring, abs(float(areas[i]))
-        ) > HOLE * together:
+        elif np.sign(areas[i]) != outer_sign and _missing(grid, ring, abs(float(areas[i]))) > HOLE * together:
             holes.append(ring)
     return outer, holes, grid.blur
 

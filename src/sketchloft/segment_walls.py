@@ -95,16 +95,13 @@ def _fitted(
     return fit_density(points, model, 2, caps=False)
 
 
-def _runs(
-    plan: Plan, shape: SectionShape, ends: tuple[float, float], twist: float
-) -> list[Run]:
+def _runs(plan: Plan, shape: SectionShape, ends: tuple[float, float], twist: float) -> list[Run]:
     """Ways in which the section may go along the segment, the simplest first."""
     changing = bool(np.any(plan.growth[1:]))
     options = [_walls(plan, outline, ends, twist, changing=changing) for outline in shape.outlines]
     count = max(len(option) for option in options)
     return [
-        Run(tuple(option[min(k, len(option) - 1)] for option in options), shape.holes)
-        for k in range(count)
+        Run(tuple(option[min(k, len(option) - 1)] for option in options), shape.holes) for k in range(count)
     ]
 
 

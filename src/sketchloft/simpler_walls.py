@@ -17,7 +17,7 @@ from sketchloft.outline.polygons import LineArc, Polygon
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import SplineLoop
 from sketchloft.stack import Wall
-from sketchloft.wall.profile import ArcProfile, LineProfile, Profile, SplineProfile
+from sketchloft.wall.profile import ArcProfile, LineProfile, Profile
 from sketchloft.wall.revolved import Revolved, radius_at
 from sketchloft.wall.swept import Swept
 
@@ -41,9 +41,7 @@ def walls_like(wall: Wall, low: float, high: float) -> Iterator[Wall]:
             yield replace(wall, outline=outline)
         if isinstance(wall.outline, Circle) and "drift" not in wall.free:
             slope = wall.outline.radius * wall.taper
-            yield Revolved(
-                wall.outline.centre, LineProfile(wall.height, wall.outline.radius, slope or None)
-            )
+            yield Revolved(wall.outline.centre, LineProfile(wall.height, wall.outline.radius, slope or None))
 
 
 def profiles_like(z: Floats, r: Floats) -> Iterator[Profile]:
@@ -69,28 +67,29 @@ def _outlines_like(outline: Outline) -> Iterator[Outline]:
         yield circle_of(ring)
     if isinstance(outline, (LineArc, SplineLoop)):
         yield ellipse_of(ring)
-    if isinstance(outline, Polygon) and len(outline.vertices) > 3:
-        for k in _flattest(outline.vertices):
-            yield Polygon(np.delete(outline.vertices, k, axis=0))
-    if isinstance(outline, LineArc):
-        if len(outline.vertices) > 2:
-            for k in _flattest(outline.vertices):
-                curved = np.delete(outline.curved, k)
-                bulges = np.delete(outline.bulges, k)
-                if curved.any():
-                    yield LineArc(np.delete(outline.vertices, k, axis=0), bulges, curved)
-        if len(outline.vertices) > 2:
-            yield Polygon(outline.vertices)
-    polygon = outline if isinstance(outline, Polygon) else None
-    if isinstance(outline, RoundedPolygon):
-        polygon = Polygon(outline.vertices)
-        yield polygon
     if isinstance(outline, RoundedRectangle):
         yield Rectangle(outline.centre, outline.width, outline.height, outline.angle)
+    if isinstance(outline, RoundedPolygon):
+        yield Polygon(outline.vertices)
+    yield from _with_fewer_corners(outline)
     if not isinstance(outline, (Rectangle, Circle, Ellipse)):
+        vertices = outline.vertices if isinstance(outline, (Polygon, RoundedPolygon)) else None
+        polygon = None if vertices is None else Polygon(vertices)
         for other in polygons(ring, polygon, float(np.sqrt(outline.area)) * 0.05):
             if type(other) is not type(outline):
                 yield other
+
+
+def _with_fewer_corners(outline: Outline) -> Iterator[Outline]:
+    if isinstance(outline, Polygon) and len(outline.vertices) > 3:
+        for k in _flattest(outline.vertices):
+            yield Polygon(np.delete(outline.vertices, k, axis=0))
+    if isinstance(outline, LineArc) and len(outline.vertices) > 2:
+        for k in _flattest(outline.vertices):
+            curved, bulges = np.delete(outline.curved, k), np.delete(outline.bulges, k)
+            if curved.any():
+                yield LineArc(np.delete(outline.vertices, k, axis=0), bulges, curved)
+        yield Polygon(outline.vertices)
 
 
 def _flattest(vertices: Floats) -> list[int]:

@@ -19,7 +19,7 @@ __all__ = ["MEET", "Piece", "Straight", "meridian"]
 MEET = 1e-6
 """Difference of radius, as a share of the size, up to which neighbouring walls meet without a ledge."""
 REACH = 10 * MEET
-"""How far from a break, as a share of the size, neighbouring walls may truly cross."""
+"""How far from a break, as a share of the size, walls may truly cross, or come down to the axis."""
 
 
 @dataclass(frozen=True)
@@ -61,26 +61,25 @@ def meridian(profiles: Sequence[Profile | Straight], breaks: Floats, size: float
     Returns
     -------
     list of Piece
-        Rising. Where one ends at another radius than the next starts there is a ledge; where the radii
-        differ by no more than `MEET` the two share a point: where they cross if that is near, else
-        on the cylinder if one of them is one, else half-way between them.
+        Rising. Two share a point where they cross, if that is within `REACH` of the break, or if their
+        radii differ by no more than `MEET`: then on the cylinder if one of them is one, else half-way between
+        them. Elsewhere there is a ledge.
 
     Notes
     -----
-    An arc or a straight wall that comes down to the axis at an outer break, or before it, ends there, and
-    the break moves to that height.
+    An arc or a straight wall that comes down to the axis at the end of all, or where a hole ends, does so
+    at the height that it says; the break moves there.
     """
     profiles, breaks = _without_idle_breaks(profiles, breaks, size)
     starts = [_on(profile, z) for profile, z in zip(profiles, breaks[:-1], strict=True)]
     ends = [_on(profile, z) for profile, z in zip(profiles, breaks[1:], strict=True)]
+    inside = (breaks[:-1] + breaks[1:]) / 2
     for i, (below, above) in enumerate(pairwise(profiles)):
-        if abs(ends[i][0] - starts[i + 1][0]) <= MEET * size:
-            starts[i + 1] = ends[i] = _joint(below, above, float(breaks[i + 1]), size)
-    middles = (breaks[:-1] + breaks[1:]) / 2
-    for profile, points, z in ((profiles[0], starts, middles[0]), (profiles[-1], ends, middles[-1])):
-        at = 0 if points is starts else -1
-        if points[at][0] <= MEET * size:
-            points[at] = _tip(profile, points[at], float(z))
+        joint = _joint(below, above, (ends[i], starts[i + 1]), inside[i : i + 2], size)
+        if joint is not None:
+            ends[i] = starts[i + 1] = joint
+    starts[0] = _tip(profiles[0], starts[0], float(inside[0]), size)
+    ends[-1] = _tip(profiles[-1], ends[-1], float(inside[-1]), size)
     return [
         Piece(_through(profile, start, end), start, end)
         for profile, start, end in zip(profiles, starts, ends, strict=True)
@@ -122,34 +121,56 @@ def _on(profile: Profile | Straight, z: float) -> Floats:
     return np.array([_radius(profile, z), z])
 
 
-def _joint(below: Profile | Straight, above: Profile | Straight, z: float, size: float) -> Floats:
+def _joint(
+    below: Profile | Straight,
+    above: Profile | Straight,
+    ends: tuple[Floats, Floats],
+    inside: Floats,
+    size: float,
+) -> Floats | None:
+    """Where two profiles meet at a break; None where there is a ledge."""
+    (r_below, z), (r_above, _) = ends
+    if isinstance(below, Straight) or isinstance(above, Straight):  # a hole begins or ends
+        hole, end, at = (
+            (above, ends[1], inside[1]) if isinstance(below, Straight) else (below, ends[0], inside[0])
+        )
+        tip = _tip(hole, end, float(at), size)
+        return tip if tip[0] == 0 else None
+    crossing = _crossing(below, above, float(z), REACH * size)
+    if crossing is not None or abs(r_below - r_above) > MEET * size:
+        return crossing
+    for profile, end in ((below, ends[0]), (above, ends[1])):
+        if isinstance(profile, LineProfile) and not profile.slope:
+            return end
+    return (ends[0] + ends[1]) / 2
+
+
+def _crossing(below: Profile, above: Profile, z: float, reach: float) -> Floats | None:
     def gap(at: float) -> float:
         return _radius(below, at) - _radius(above, at)
 
-    low, high = z - REACH * size, z + REACH * size
-    at_low, at_high = gap(low), gap(high)
-    if gap(z) == 0:
-        return _on(below, z)
-    if at_low * at_high < 0:
-        for _ in range(60):
-            middle = (low + high) / 2
-            low, high = (middle, high) if gap(middle) * at_low > 0 else (low, middle)
-        return _on(below, (low + high) / 2)
-    for profile in (below, above):
-        if isinstance(profile, LineProfile) and not profile.slope:
-            return _on(profile, z)
-    return np.array([(_radius(below, z) + _radius(above, z)) / 2, z])
+    low, high = z - reach, z + reach
+    at_low = gap(low)
+    if at_low * gap(high) >= 0:
+        return None
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (middle, high) if gap(middle) * at_low > 0 else (low, middle)
+    return _on(below, (low + high) / 2)
 
 
-def _tip(profile: Profile | Straight, at: Floats, inside: float) -> Floats:
-    """Where the profile reaches the axis, on the side of a point that lies beyond or on it."""
+def _tip(profile: Profile | Straight, end: Floats, inside: float, size: float) -> Floats:
+    """Where a profile reaches the axis at its end or just before or after it; else the end as it is."""
+    side = np.sign(end[1] - inside)
     match profile:
-        case ArcProfile(height, offset, radius):
-            half = np.sqrt(max(radius**2 - (offset or 0.0) ** 2, 0.0))
-            return np.array([0.0, height + np.copysign(half, at[1] - inside)])
-        case LineProfile(height, radius, slope) if slope:
-            return np.array([0.0, height - radius / slope])
-    return np.array([0.0, at[1]])
+        case ArcProfile(height, offset, radius, 1) if (offset or 0.0) < radius:
+            tip = height + side * np.sqrt(radius**2 - (offset or 0.0) ** 2)
+        case LineProfile(height, radius, slope) if slope and slope * side < 0:
+            tip = height - radius / slope
+        case _:
+            return end if end[0] > MEET * size else np.array([0.0, end[1]])
+    is_there = side * (tip - end[1]) <= REACH * size or end[0] <= MEET * size
+    return np.array([0.0, tip]) if is_there else end
 
 
 def _through(profile: Profile | Straight, start: Floats, end: Floats) -> Profile | Straight:

@@ -80,9 +80,7 @@ def polygons(ring: Floats, polygon: Polygon | None, blur: float) -> list[Outline
     radius = float(np.sqrt(max(lacking, 0.0) / (4 - np.pi)))
     radius = float(np.clip(radius, 0.5 * blur, 0.49 * min(rectangle.width, rectangle.height)))
     found.append(
-        RoundedRectangle(
-            rectangle.centre, rectangle.width, rectangle.height, rectangle.angle, radius
-        )
+        RoundedRectangle(rectangle.centre, rectangle.width, rectangle.height, rectangle.angle, radius)
     )
     if polygon is not None:
         spokes = polygon.vertices - polygon.vertices.mean(axis=0)
@@ -91,9 +89,7 @@ def polygons(ring: Floats, polygon: Polygon | None, blur: float) -> list[Outline
         if sides != 4 and lengths.std() < 0.12 * lengths.mean():
             turned = np.arctan2(spokes[:, 1], spokes[:, 0]) - 2 * np.pi * np.arange(sides) / sides
             angle = float(np.angle(np.exp(1j * sides * turned).mean()) / sides)
-            found.append(
-                RegularPolygon(polygon.vertices.mean(axis=0), float(lengths.mean()), angle, sides)
-            )
+            found.append(RegularPolygon(polygon.vertices.mean(axis=0), float(lengths.mean()), angle, sides))
         if sides != 4:
             found.append(RoundedPolygon(polygon.vertices, 1.5 * blur))
     return found

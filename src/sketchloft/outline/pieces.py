@@ -94,6 +94,7 @@ def _costs(closed: Floats, noise: float, trim: int) -> tuple[Floats, Floats, Flo
 
 def _bulge(start: Floats, ends: Floats, middles: Floats, centres: Floats) -> Floats:
     """tan(sweep / 4) of arcs about centres from a start to ends, over the side where the middles are."""
+
     def angle(points: Floats) -> Floats:
         spoke = points - centres
         return np.arctan2(spoke[:, 1], spoke[:, 0])

@@ -99,12 +99,12 @@ def radius_at(profile: Profile, heights: Floats) -> tuple[Floats, Floats]:
         case ArcProfile(height, offset, radius, side):
             dz = heights - height
             half = np.sqrt(np.maximum(radius**2 - dz**2, 0.0))
-            slope = -side * dz / np.maximum(half, 1e-9 * radius)
-            return np.maximum((offset or 0.0) + side * half, 0.0), slope
+            lean = -side * dz / np.maximum(half, 1e-9 * radius)
+            return np.maximum((offset or 0.0) + side * half, 0.0), lean
         case SplineProfile(knots, radii):
             values = basis_matrix(knots, SplineProfile.degree, heights) @ radii
-            slope = basis_matrix(knots, SplineProfile.degree, heights, 1) @ radii
-            return np.maximum(values, 0.0), slope
+            rise: Floats = basis_matrix(knots, SplineProfile.degree, heights, 1) @ radii
+            return np.maximum(values, 0.0), rise
 
 
 def _heights(low: float, high: float, profile: Profile) -> tuple[Floats, Floats]:
@@ -119,7 +119,9 @@ def _heights(low: float, high: float, profile: Profile) -> tuple[Floats, Floats]
         span = np.arcsin(np.clip((np.array([low, high]) - profile.height) / profile.radius, -1, 1))
         half_angle = (span[1] - span[0]) / 2
         angle = span.mean() + half_angle * x
-        return profile.height + profile.radius * np.sin(angle), w * half_angle * profile.radius * np.cos(angle)
+        return profile.height + profile.radius * np.sin(angle), w * half_angle * profile.radius * np.cos(
+            angle
+        )
     return (low + high) / 2 + (high - low) / 2 * x, w * (high - low) / 2
 
 
@@ -142,9 +144,7 @@ def _profile_moved(profile: Profile, vector: Floats) -> Profile:
         case ArcProfile(offset=None):
             return replace(profile, height=float(vector[0]), radius=float(vector[1]))
         case ArcProfile():
-            return replace(
-                profile, height=float(vector[0]), radius=float(vector[1]), offset=float(vector[2])
-            )
+            return replace(profile, height=float(vector[0]), radius=float(vector[1]), offset=float(vector[2]))
         case SplineProfile():
             return replace(profile, radii=vector.copy())
 
@@ -169,6 +169,6 @@ def _profile_foot(profile: Profile, r: Floats, z: Floats) -> tuple[Floats, Float
             return side * (length - radius), n_r, n_z, np.column_stack(columns), side / length
         case SplineProfile(knots, radii):
             basis = basis_matrix(knots, SplineProfile.degree, z)
-            slope = basis_matrix(knots, SplineProfile.degree, z, 1) @ radii
-            c = 1 / np.hypot(1.0, slope)
-            return c * (r - basis @ radii), c, -slope * c, -c[:, None] * basis, np.zeros(len(r))
+            rise: Floats = basis_matrix(knots, SplineProfile.degree, z, 1) @ radii
+            c = 1 / np.hypot(1.0, rise)
+            return c * (r - basis @ radii), c, -rise * c, -c[:, None] * basis, np.zeros(len(r))

@@ -21,7 +21,7 @@ from sketchloft.fit import climb, fit_density
 from sketchloft.frame import Frame, frame_along
 from sketchloft.inside_density import inside_density
 from sketchloft.joins import natural_joins
-from sketchloft.level_set import level_set, on_grid
+from sketchloft.level_set import hollow_share, level_set, on_grid
 from sketchloft.likelihood import beside_walls
 from sketchloft.segments import SegmentsParams, segments
 
@@ -40,6 +40,8 @@ ROOM = 1.25
 SEARCH_POINTS = 12_000
 """The search looks at no more points; the fit looks at all."""
 BESIDE = 8.0
+HOLLOW = 0.4
+"""Share of a closed region that is empty inside from which on it is a skin."""
 
 
 @dataclass(frozen=True)
@@ -179,6 +181,12 @@ def _start(points: Floats, params: ExactParams) -> tuple[Floats, ExactModel, flo
     """Cuts, the first stack, and how many points go together."""
     grid = level_set(points)
     together = dispersion(points, grid)
+    if hollow_share(grid) > HOLLOW:
+        raise StageError(
+            "the points lie on the skin of the thing only, and this method needs points inside; "
+            "draw the inside too, or use the paper's method",
+            stage="runs",
+        )
     kept = points[on_grid(grid, points, 2 * grid.blur)]
     density = inside_density(points, grid, together)
     cuts = segments(kept, params.segments, together)

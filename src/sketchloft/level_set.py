@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from sketchloft.cloud import Floats
 
-__all__ = ["LevelSet", "level_set", "on_grid"]
+__all__ = ["LevelSet", "hollow_share", "level_set", "on_grid"]
 
 POINTS_PER_BLUR = 22.0
 """Points that the blurring kernel averages over inside."""
@@ -100,6 +100,14 @@ def _large_pieces(mask: NDArray[np.bool_], counts: NDArray[np.float32]) -> NDArr
     held[0] = 0.0
     kept: NDArray[np.bool_] = (held >= PIECE * held.sum())[labels]
     return kept
+
+
+def hollow_share(grid: LevelSet) -> float:
+    """Share of the volume that the inside encloses without filling it: near 1 for a closed skin."""
+    from scipy import ndimage  # noqa: PLC0415
+
+    filled = ndimage.binary_fill_holes(grid.inside)
+    return 1.0 - float(grid.inside.sum()) / max(float(filled.sum()), 1.0)
 
 
 def on_grid(grid: LevelSet, points: Floats, margin: float) -> NDArray[np.bool_]:

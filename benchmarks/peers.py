@@ -95,7 +95,7 @@ class Outcome:
 
     def __str__(self) -> str:
         """Cells of the table."""
-        figures = f"{self.there:9.3f}{self.back:9.3f}{self.faces:>19}{self.seconds:9.2f}{self.busy:9.2f}"
+        figures = f"{self.there:9.3f}{self.back:9.3f}{self.faces:>21}{self.seconds:9.2f}{self.busy:9.2f}"
         return f"{figures}  {self.setting}".rstrip()
 
 
@@ -195,7 +195,7 @@ def _task(cloud: PointCloud, goal: Mesh, folder: Path) -> Task:
 def main(sizes: list[int], goals: list[str], clouds: list[str], seed: int) -> None:
     """Print the table."""
     print(f"{len(os.sched_getaffinity(0))} cores; rms in thousandths of the diagonal; seconds of a process")
-    head = f"{'goal':15}{'cloud':9}{'points':>9}  {'method':28}{'to goal':>9}{'back':>9}{'model':>19}"
+    head = f"{'goal':15}{'cloud':9}{'points':>9}  {'method':28}{'to goal':>9}{'back':>9}{'model':>21}"
     print(f"{head}{'seconds':>9}{'busy':>9}  best setting")
     with tempfile.TemporaryDirectory() as where:
         folder = Path(where)

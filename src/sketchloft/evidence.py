@@ -14,12 +14,12 @@ from sketchloft.joins import natural_joins, sole_profile
 from sketchloft.likelihood import beside_walls, value_of
 from sketchloft.loft_start import loft_start
 from sketchloft.segment_walls import evidence_price, spline_knots
-from sketchloft.simpler_walls import walls_like
+from sketchloft.simpler_walls import profiles_like, walls_like
 from sketchloft.stack import Run
 from sketchloft.surface import basis_matrix
-from sketchloft.surgery import with_run, with_runs, without_run
+from sketchloft.surgery import with_run, with_runs, with_split, without_run
 from sketchloft.wall.lofted import Lofted
-from sketchloft.wall.profile import ArcProfile, SplineProfile
+from sketchloft.wall.profile import ArcProfile, Profile, SplineProfile
 from sketchloft.wall.revolved import Revolved, radius_at
 
 __all__ = ["MOST_NOISE", "coaxial", "improved"]
@@ -33,6 +33,7 @@ SHORT = 8.0
 """Runs shorter than so many noise deviations are taken for noise unless they gain a lot."""
 SPLINE_GAIN = 20.0
 """What one free profile must gain over a chain of lines and arcs."""
+SPLIT_SAMPLES = 41
 SPANS = (4, 7, 11)
 """Knot spans of the free profiles that are tried."""
 LOFTS = ((12, 2), (16, 4), (24, 4))
@@ -62,6 +63,7 @@ def improved(points: Floats, model: ExactModel, together: float, rounds: int = 2
         before = model
         model = _through(points, model, together, _merges)
         model = _splined(points, model, together)
+        model = _through(points, model, together, _splits)
         model = _through(points, model, together, _swaps)
         model = _lofted(points, model, together)
         if model is before:
@@ -151,6 +153,8 @@ def _tried(
     ]
     if not len(near):
         return None
+    if hopeless > HOPELESS:  # both are judged with the noise that suits them
+        model, _, _ = climb(near, model, STEPS[1], noise=True, most=MOST_NOISE)
     old = value_of(near, model) / together - _price(model, len(points), together)
     wide = range(max(runs.start - 1, 0), min(runs.stop + 1, len(breaks) - 1))
     fitted = candidate
@@ -212,6 +216,30 @@ def _splined(points: Floats, model: ExactModel, together: float) -> ExactModel:
         model = best or model
         start = start + 1 if best is not None else max(stop, start + 1)
     return model
+
+
+def _splits(model: ExactModel) -> Iterator[Change]:
+    """Two runs of lines or arcs for a free profile, cut where they fit it best."""
+    for j, run in enumerate(model.stack.runs):
+        wall = sole_profile(run)
+        if wall is None or not isinstance(wall.profile, SplineProfile):
+            continue
+        low, high = float(model.stack.breaks[j]), float(model.stack.breaks[j + 1])
+        z = np.linspace(low, high, SPLIT_SAMPLES)
+        r = radius_at(wall.profile, z)[0]
+        options = []
+        for k in range(5, SPLIT_SAMPLES - 5):
+            below, above = _closest(z[: k + 1], r[: k + 1]), _closest(z[k:], r[k:])
+            options.append((below[0] + above[0], k, below[1], above[1]))
+        _, k, first, second = min(options, key=lambda option: option[0])
+        walls = [replace(wall, profile=profile) for profile in (first, second)]
+        yield with_split(model, j, float(z[k]), *walls), range(j, j + 2), 0.0
+
+
+def _closest(z: Floats, r: Floats) -> tuple[float, Profile]:
+    """Squares left by the line or arc nearest to a profile, and that."""
+    fits = [(float(((radius_at(p, z)[0] - r) ** 2).sum()), p) for p in profiles_like(z, r)]
+    return min(fits, key=lambda fit: fit[0])
 
 
 def _continuous(model: ExactModel, k: int) -> bool:

@@ -13,7 +13,7 @@ from sketchloft.likelihood import Evaluation, evaluate, mass_nodes, share_of, so
 
 __all__ = ["climb", "fit_density", "log_likelihood"]
 
-STRAY_MOST = 0.2
+STRAY_MOST = 0.06
 """Largest share of strays."""
 MOST_CHANGE = 0.5
 """Largest change of the logarithm of the density in one round, lest it run away with a shrinking model."""

@@ -24,6 +24,7 @@ from sketchloft.wall.swept import Swept
 __all__ = [
     "Evaluation",
     "beside_walls",
+    "covers",
     "evaluate",
     "mass_nodes",
     "share_of",
@@ -34,6 +35,8 @@ __all__ = [
 
 REACH = 5.0
 """Noise deviations beyond which a wall is taken to be a sharp step."""
+LEVELS = 17
+"""Heights of a run at which its sections are looked at."""
 NODES = 120
 """Points per wall to integrate the density with."""
 RADIAL = np.polynomial.legendre.leggauss(3)
@@ -111,11 +114,11 @@ def sound(model: ExactModel) -> bool:
     if not np.isfinite(model.vector).all() or not (np.diff(breaks) > 0).all():
         return False
     for j, run in enumerate(model.stack.runs):
-        if any(not _covers(wall, breaks[j], breaks[j + 1]) for wall in run.walls):
+        if any(not covers(wall, breaks[j], breaks[j + 1]) for wall in run.walls):
             return False
-        ends = np.linspace(breaks[j], breaks[j + 1], 7)
-        at = ends[1:-1]
-        if any((wall.area(at) <= 0).any() or not _simple(wall, ends) for wall in run.walls):
+        ends = np.linspace(breaks[j], breaks[j + 1], LEVELS)
+        at = ends[LEVELS // 3 : -(LEVELS // 3)]  # a sphere may end before its break does
+        if any((wall.area(at) <= 0).any() or not _simple(wall, ends[:: LEVELS // 8]) for wall in run.walls):
             return False
     return True
 
@@ -134,13 +137,15 @@ def _simple(wall: Wall, heights: Floats) -> bool:
     return bool(is_valid(polygons(linearrings(rings))).all())
 
 
-def _covers(wall: Wall, low: float, high: float) -> bool:
+def covers(wall: Wall, low: float, high: float) -> bool:
     """Whether a spline's knots, or a torus, reach over a stretch of heights."""
     ends = (-np.inf, np.inf)
     if isinstance(wall, Lofted):
         ends = wall.knots[0], wall.knots[-1]
     if isinstance(wall, Revolved) and isinstance(wall.profile, SplineProfile):
         ends = wall.profile.knots[0], wall.profile.knots[-1]
+        if not (wall.area(np.linspace(low, high, LEVELS)) > 0).all():
+            return False
     if (
         isinstance(wall, Revolved)
         and isinstance(wall.profile, ArcProfile)
@@ -272,7 +277,8 @@ def _fan(at: Floats, normals: Floats, areas: Floats) -> tuple[Floats, Floats]:
 
 def _mass(model: ExactModel) -> float:
     points, volumes = mass_nodes(model)
-    return float(model.density.at(points) @ volumes)
+    mass = float(model.density.at(points) @ volumes)
+    return mass if mass > 0 else np.inf  # it has lost all its points
 
 
 def _mass_slope(model: ExactModel, *, caps: bool) -> Floats:

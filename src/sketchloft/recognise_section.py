@@ -22,7 +22,7 @@ __all__ = ["SectionShape", "recognise_section"]
 MOST_POINTS = 3000
 BESIDE = 4.0
 """Blurs beside a contour within which points tell where the outline is."""
-CROWDED = 2.0
+CROWDED = 1.5
 """An outline that leaves the points so many times denser than its contour did has lost them."""
 LATTICE = 40
 POLES = (8, 12, 20)

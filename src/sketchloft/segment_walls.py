@@ -9,6 +9,7 @@ import numpy as np
 from sketchloft.cloud import Floats
 from sketchloft.exact_model import Density, ExactModel, model_of
 from sketchloft.fit import climb, fit_density, log_likelihood
+from sketchloft.likelihood import covers
 from sketchloft.outline.circle import Circle
 from sketchloft.outline.outline import Outline
 from sketchloft.recognise_section import SectionShape, recognise_section
@@ -23,6 +24,8 @@ from sketchloft.wall.swept import Freedom, Swept
 __all__ = ["evidence_price", "segment_run", "spline_knots"]
 
 MOST_POINTS = 3000
+REACH = 0.03
+"""How far beyond the segment's ends its walls must go, in sizes of the cloud: its breaks may move."""
 
 
 def evidence_price(parameters: int, count: int, together: float) -> float:
@@ -67,6 +70,9 @@ def segment_run(
     best: tuple[float, ExactModel] | None = None
     for run in _runs(plan, shape, ends, twist):
         model = _fitted(points, run, ends, sigma, density)
+        walls = model.stack.runs[0].walls
+        if not all(covers(wall, ends[0] - REACH, ends[1] + REACH) for wall in walls):
+            continue
         value = log_likelihood(points, model, caps=False) / together - evidence_price(
             model.size, len(points), together
         )
@@ -141,7 +147,7 @@ def _revolved(plan: Plan, circle: Circle, ends: tuple[float, float], *, changing
         z = np.linspace(*ends, 24)
         r = radius * np.sqrt(np.maximum(1 + first * (z - height) + second * (z - height) ** 2, 0.01))
         profiles.extend(_tori(z, r))
-        knots = spline_knots(*ends, 3, 0.1 * (ends[1] - ends[0]))
+        knots = spline_knots(*ends, 3, 0.1 * (ends[1] - ends[0]) + REACH)
         basis = basis_matrix(knots, 3, z)
         profiles.append(SplineProfile(knots, np.linalg.lstsq(basis, r, rcond=None)[0]))
     return [Revolved(circle.centre, profile) for profile in profiles]

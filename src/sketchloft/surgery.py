@@ -8,9 +8,9 @@ import numpy as np
 
 from sketchloft.exact_model import ExactModel, model_of
 from sketchloft.joins import natural_joins
-from sketchloft.stack import Run, Stack
+from sketchloft.stack import Run, Stack, Wall
 
-__all__ = ["with_run", "with_runs", "without_run"]
+__all__ = ["with_run", "with_runs", "with_split", "without_run"]
 
 
 def with_runs(model: ExactModel, first: int, last: int, run: Run) -> ExactModel:
@@ -23,6 +23,13 @@ def with_runs(model: ExactModel, first: int, last: int, run: Run) -> ExactModel:
 def with_run(model: ExactModel, index: int, run: Run) -> ExactModel:
     """Replace one run."""
     return with_runs(model, index, index, run)
+
+
+def with_split(model: ExactModel, index: int, height: float, below: Wall, above: Wall) -> ExactModel:
+    """Replace one run by two of one wall each, with a break between them."""
+    breaks = np.insert(model.stack.breaks, index + 1, height)
+    runs = (*model.stack.runs[:index], Run((below,)), Run((above,)), *model.stack.runs[index + 1 :])
+    return _rebuilt(model, Stack(breaks, runs))
 
 
 def without_run(model: ExactModel, index: int, heir: int | None) -> ExactModel:

@@ -62,8 +62,7 @@ def _angle_around(vertices: Floats, low: Ints, high: Ints, apex: Ints) -> Floats
     along, to_apex = vertices[high] - vertices[low], vertices[apex] - vertices[low]
     aside = np.eye(3)[np.abs(along).argmin(axis=1)]
     x = np.cross(along, aside)
-    length = np.linalg.norm(along, axis=1, keepdims=True)
-    y = np.cross(along, x) / np.maximum(
-        length, np.finfo(float).tiny
-    )  # some marching cubes have edges of no length
+    # Marching cubes leave edges of no length; a triangle at one has no other that it could be confused with.
+    length = np.maximum(np.linalg.norm(along, axis=1, keepdims=True), np.finfo(float).tiny)
+    y = np.cross(along, x) / length
     return np.arctan2(np.einsum("ij,ij->i", to_apex, y), np.einsum("ij,ij->i", to_apex, x))

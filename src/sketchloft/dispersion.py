@@ -13,10 +13,10 @@ from sketchloft.level_set import LevelSet
 
 __all__ = ["dispersion"]
 
-BLOCK = 5
+BLOCK = 3
 """Cells of the grid along each edge of a block."""
-FILLED = 0.7
-CERTAIN = 1.25
+FILLED = 0.8
+CERTAIN = 1.06
 """Blocks of independent points hardly ever scatter more than this."""
 EXTENT = 0.3
 """Size of what is judged, a run or its section, as a share of the cloud's."""

@@ -266,7 +266,7 @@ def mass_nodes(model: ExactModel) -> tuple[Floats, Floats]:
 
 def _fan(at: Floats, normals: Floats, areas: Floats) -> tuple[Floats, Floats]:
     """Spread wall points over the sections that they enclose (Gauss's theorem in each section)."""
-    centre = (areas @ at[:, :2]) / areas.sum()
+    centre = (areas @ at[:, :2]) / max(float(areas.sum()), 1e-300)
     spoke = at[:, :2] - centre
     share = areas * np.einsum("ij,ij->i", normals[:, :2], spoke) / 2
     x, w = RADIAL

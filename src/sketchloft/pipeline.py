@@ -172,8 +172,8 @@ def reconstruct(
     >>> from sketchloft import Params, reconstruct
     >>> from sketchloft.sample import GOALS, sample_goal
     >>> result = reconstruct(sample_goal(GOALS["cylinder"], 4000, seed=1))
-    >>> {section.shape.kind for section in result.bodies[0].sections}
-    {'circle'}
+    >>> result.bodies[0].facts.faces
+    {'CylindricalSurface': 1, 'Plane': 2}
     """
     params = params or Params()
     if params.plan is not None and params.method == "paper":

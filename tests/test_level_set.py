@@ -7,8 +7,11 @@ import pytest
 
 from sketchloft.cloud import Floats
 from sketchloft.dispersion import dispersion
+from sketchloft.exact import SEARCH_POINTS
 from sketchloft.level_set import level_set, on_grid
+from sketchloft.ring import ring_area
 from sketchloft.sample import GOALS, Fill, FillParams, sample_goal
+from sketchloft.section_contours import contours
 
 BALL = 4 / 3 * np.pi
 
@@ -45,6 +48,20 @@ def test_a_disc_has_its_area() -> None:
     points = np.random.default_rng(1).uniform(-1, 1, (12_000, 2))
     grid = level_set(points[np.hypot(*points.T) < 1])
     assert grid.inside.sum() * grid.cell**2 == pytest.approx(np.pi, rel=0.03)
+
+
+@pytest.mark.parametrize("n", [3000, SEARCH_POINTS])
+def test_the_grid_reaches_around_tips(n: int) -> None:
+    """Pointed ends hold few points, but the section must not be cut off there."""
+    for seed in range(3):
+        x, y = np.random.default_rng(seed).uniform(-1, 1, (2, 3 * n))
+        points = np.column_stack([x, y])[np.abs(x) + np.abs(y) < 1][:n]
+        grid = level_set(points)
+        rim = np.concatenate([grid.level[0], grid.level[-1], grid.level[:, 0], grid.level[:, -1]])
+        assert rim.max() < 0.5
+        outer, holes, _ = contours(points)
+        assert (len(outer), len(holes)) == (1, 0)
+        assert ring_area(outer[0]) == pytest.approx(2, rel=0.03)
 
 
 def test_where_points_lie_six_times_denser_the_wall_is_no_further_out() -> None:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from sketchloft.exact_model import Density, ExactModel, model_of
+from sketchloft.density import Density
+from sketchloft.exact_model import ExactModel, model_of
 from sketchloft.joins import crossing, joined, natural_joins
 from sketchloft.stack import Run, Stack
 from sketchloft.wall.profile import ArcProfile, LineProfile, Profile

@@ -9,14 +9,17 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from sketchloft.cloud import Floats
-from sketchloft.exact_model import Density, ExactModel, model_of
-from sketchloft.likelihood import beside_walls, evaluate, mass_nodes, share_of, sound, value_of
+from sketchloft.density import Density
+from sketchloft.exact_model import ExactModel, model_of
+from sketchloft.expected import mass_nodes, wall_nodes
+from sketchloft.likelihood import beside_walls, evaluate, share_of, value_of
 from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.outline import Outline
 from sketchloft.outline.placed_polygons import Rectangle, RegularPolygon, RoundedRectangle
 from sketchloft.outline.polygons import LineArc, Polygon
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import spline_loop
+from sketchloft.soundness import sound
 from sketchloft.stack import Run, Stack, Wall
 from sketchloft.stack_volume import stack_volume
 from sketchloft.wall.lofted import lofted
@@ -153,7 +156,7 @@ def test_at_the_truth_scores_are_what_chance_makes_of_them(name: str) -> None:
 @each
 def test_the_integration_points_hold_the_volume(name: str) -> None:
     _, model = known(one_run(name))
-    assert mass_nodes(model)[1].sum() == pytest.approx(stack_volume(model.stack), rel=2e-3)
+    assert mass_nodes(model, wall_nodes(model))[1].sum() == pytest.approx(stack_volume(model.stack), rel=2e-3)
 
 
 def test_what_lies_deep_inside_is_left_out_and_the_rest_is_not() -> None:

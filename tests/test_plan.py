@@ -15,8 +15,9 @@ from hypothesis import strategies as st
 
 from sketchloft.cli import _exit_code
 from sketchloft.cloud import PointCloud
+from sketchloft.density import Density
 from sketchloft.errors import InputError, OutputError, UsageError
-from sketchloft.exact_model import Density, ExactModel, model_of, tied
+from sketchloft.exact_model import ExactModel, model_of, tied
 from sketchloft.frame import Frame
 from sketchloft.joins import joined
 from sketchloft.outline.circle import Circle

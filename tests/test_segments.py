@@ -7,7 +7,7 @@ import pytest
 
 from sketchloft.cloud import Floats
 from sketchloft.sample import GOALS, sample_goal
-from sketchloft.section_contours import plan_of
+from sketchloft.section_contours import plan_view
 from sketchloft.segments import SegmentsParams, segments
 from sketchloft.twist import twist_of, untwisted
 
@@ -83,7 +83,7 @@ def bar(twist: float, corners: int, seed: int = 3) -> Floats:
 
 
 def found_twist(points: Floats) -> float:
-    plan = plan_of(points)
+    plan = plan_view(points)
     return twist_of(plan, points[:, 2] - plan.height)
 
 
@@ -107,7 +107,7 @@ def test_a_round_bar_has_no_twist_however_it_is_turned() -> None:
 
 def test_untwisted_points_fill_one_section() -> None:
     points = bar(1.2, 2)
-    plan = plan_of(points)
+    plan = plan_view(points)
     heights = points[:, 2] - plan.height
     flat = untwisted(plan, heights, 1.2).points
     turned = np.linalg.eigvalsh(np.cov(flat.T))

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from sketchloft.cloud import Floats
+from sketchloft.density import Density
 from sketchloft.level_set import LevelSet
 
 __all__ = ["dispersion"]
@@ -22,15 +22,13 @@ EXTENT = 0.3
 """Size of what is judged, a run or its section, as a share of the cloud's."""
 
 
-def dispersion(points: Floats, grid: LevelSet) -> float:
+def dispersion(grid: LevelSet) -> float:
     """Points that go together where something as large as a section is judged, at least 1.
 
     Parameters
     ----------
-    points : (n, 3) float array
-        In a unit in which the cloud is about 1 across.
     grid : LevelSet
-        Of these points.
+        Of points in space, in a unit in which the cloud is about 1 across.
 
     Notes
     -----
@@ -38,21 +36,16 @@ def dispersion(points: Floats, grid: LevelSet) -> float:
     in proportion to the block's width, so what is found for a block is carried over to `EXTENT`.
     """
     shape = np.array(grid.level.shape) // BLOCK
-    index = np.rint((points - grid.origin) / grid.cell).astype(int) // BLOCK
-    within = ((index >= 0) & (index < shape)).all(axis=1)
-    flat = np.ravel_multi_index(tuple(index[within].T), tuple(shape))
-    count = np.bincount(flat, minlength=int(np.prod(shape))).astype(float)
-    cropped = grid.inside[tuple(slice(0, n * BLOCK) for n in shape)]
+    whole = tuple(slice(0, n * BLOCK) for n in shape)
     split = [size for n in shape for size in (n, BLOCK)]
-    filled = cropped.reshape(split).mean(axis=tuple(range(1, 2 * len(shape), 2))).ravel()
+    count = grid.counts[whole].astype(float).reshape(split).sum(axis=(1, 3, 5)).ravel()
+    filled = grid.inside[whole].reshape(split).mean(axis=(1, 3, 5)).ravel()
     full = np.flatnonzero(filled >= FILLED)
     if len(full) < 12:
         return 1.0
     at = np.column_stack(np.unravel_index(full, tuple(shape))).astype(float)
     at = (at - at.mean(axis=0)) / np.maximum(at.std(axis=0), 1e-9)
-    x, y, z = at.T
-    terms = np.column_stack([np.ones(len(at)), at, x * x, y * y, z * z, x * y, x * z, y * z])
-    terms = terms * filled[full, None]
+    terms = Density.terms(at, 10) * filled[full, None]
     mean = np.maximum(terms @ np.linalg.lstsq(terms, count[full], rcond=None)[0], 0.25 * count[full].mean())
     freedom = max(len(full) - terms.shape[1], 1)
     found = float((((count[full] - mean) ** 2) / mean).sum() / freedom)

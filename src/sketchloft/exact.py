@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from sketchloft.cloud import Floats
+from sketchloft.coaxial import coaxial
 from sketchloft.direction import Axis
 from sketchloft.dispersion import dispersion
 from sketchloft.errors import StageError
-from sketchloft.evidence import MOST_NOISE, coaxial, improved
+from sketchloft.evidence import improved
 from sketchloft.exact_direction import Candidate, exact_direction
 from sketchloft.exact_fit import sharpened
 from sketchloft.exact_model import ExactModel, thicker
@@ -21,9 +22,11 @@ from sketchloft.fit import climb, fit_density
 from sketchloft.frame import Frame, frame_along
 from sketchloft.inside_density import inside_density
 from sketchloft.joins import natural_joins
-from sketchloft.level_set import hollow_share, level_set, on_grid
+from sketchloft.level_set import LevelSet, hollow_share, level_set, on_grid
 from sketchloft.likelihood import beside_walls
+from sketchloft.robust_box import middle_and_size
 from sketchloft.segments import SegmentsParams, segments
+from sketchloft.trial import MOST_NOISE
 
 if TYPE_CHECKING:
     from sketchloft.brep.facts import SolidFacts
@@ -130,8 +133,7 @@ def exact_body(
         If the solid fails a check.
     """
     progress("direction")
-    low, high = np.quantile(points, [0.004, 0.996], axis=0)
-    middle, scale = (low + high) / 2, float(np.linalg.norm(high - low))
+    middle, scale = middle_and_size(points)
     unit = (points - middle) / scale
     if axis == "auto":
         candidates = _candidates(unit, params)
@@ -141,11 +143,8 @@ def exact_body(
     frame = frame_along(vector, unit)
     local = frame.to_local(unit)
     progress("runs")
-    sample = local[:: len(local) // SEARCH_POINTS + 1]
-    start = _start(sample, params)
-    if start is None:
-        raise StageError("found no section that the points fill; draw more of the inside", stage="runs")
-    cuts, first, together = start
+    sample = _sample(local)
+    cuts, first, together = _start(sample, params)
     progress("evidence")
     model = natural_joins(_settled(sample, first))
     model = natural_joins(replace(model, sigma=max(model.sigma, AT_LEAST)))
@@ -168,31 +167,39 @@ def exact_body(
 
 
 def _candidates(points: Floats, params: ExactParams) -> tuple[Candidate, ...]:
-    points = points[:: len(points) // SEARCH_POINTS + 1]
-    grid = level_set(points)
-    kept = points[on_grid(grid, points, 2 * grid.blur)]
+    grid, together, kept = _seen(_sample(points))
     mean = kept.mean(axis=0)
-    together = dispersion(points, grid)
     grid = replace(grid, origin=grid.origin - mean)
     return exact_direction(kept - mean, grid, params.segments, together)
 
 
-def _start(points: Floats, params: ExactParams) -> tuple[Floats, ExactModel, float] | None:
+def _start(points: Floats, params: ExactParams) -> tuple[Floats, ExactModel, float]:
     """Cuts, the first stack, and how many points go together."""
-    grid = level_set(points)
-    together = dispersion(points, grid)
+    grid, together, kept = _seen(points)
     if hollow_share(grid) > HOLLOW:
         raise StageError(
             "the points lie on the skin of the thing only, and this method needs points inside; "
             "draw the inside too, or use the paper's method",
             stage="runs",
         )
-    kept = points[on_grid(grid, points, 2 * grid.blur)]
     density = inside_density(points, grid, together)
     cuts = segments(kept, params.segments, together)
     space = ROOM * float(np.prod(np.ptp(points, axis=0)))
     first = first_stack(kept, cuts, grid.blur, sigma=START, together=together, density=density, space=space)
-    return None if first is None else (cuts, first, together)
+    if first is None:
+        raise StageError("found no section that the points fill; draw more of the inside", stage="runs")
+    return cuts, first, together
+
+
+def _sample(points: Floats) -> Floats:
+    """Every so many points, as many as the search looks at."""
+    return points[:: len(points) // SEARCH_POINTS + 1]
+
+
+def _seen(points: Floats) -> tuple[LevelSet, float, Floats]:
+    """The level set of points, how many of them go together, and those that are no strays."""
+    grid = level_set(points)
+    return grid, dispersion(grid), points[on_grid(grid, points, 2 * grid.blur)]
 
 
 def _settled(points: Floats, model: ExactModel) -> ExactModel:

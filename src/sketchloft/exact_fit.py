@@ -8,8 +8,9 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.exact_model import ExactModel
+from sketchloft.expected import mass_nodes, wall_nodes
 from sketchloft.fit import climb, fit_density
-from sketchloft.likelihood import beside_walls, mass_nodes, value_of, wall_nodes
+from sketchloft.likelihood import beside_walls, value_of
 
 __all__ = ["sharpened"]
 
@@ -32,34 +33,30 @@ def sharpened(points: Floats, model: ExactModel, *, tilt: bool) -> tuple[ExactMo
     (3, 3) float array
         The rotation: new points = old points @ rotation.
     """
-    turn, floor = np.eye(3), max(FLOOR, SHELLS * _shell(points, model))
-    best: tuple[float, ExactModel, Floats] | None = None
-    sigma = model.sigma
-    rising = True
-    while rising:
-        model = replace(model, sigma=sigma)
-        model = fit_density(points, model, 1)
-        near = beside_walls(points, model, BESIDE * sigma)
-        model, _, rotation = climb(points[near], model, 6, tilt=tilt)
+    floor = max(FLOOR, SHELLS * _shell(points, model))
+    best, highest = (model, points, np.eye(3)), -np.inf
+    turn, sigma = np.eye(3), model.sigma
+    while True:
+        model = fit_density(points, replace(model, sigma=sigma), 1)
+        near = points[beside_walls(points, model, BESIDE * sigma)]
+        model, _, rotation = climb(near, model, 6, tilt=tilt)
         points, turn = points @ rotation, turn @ rotation
         value = value_of(points, model)
-        rising = best is None or value > best[0]
-        if rising:
-            best = value, model, turn
-            if sigma <= floor:
-                break
-            sigma = max(sigma / 2, floor)
-    if best is None:
-        return model, points, turn
-    model = best[1]
-    points = points @ turn.T @ best[2]
-    near = beside_walls(points, model, BESIDE * 1.5 * model.sigma)
-    model, _, rotation = climb(points[near], model, 8, tilt=tilt, noise=True, least=floor)
-    return model, points @ rotation, best[2] @ rotation
+        if value <= highest:
+            break
+        best, highest = (model, points, turn), value
+        if sigma <= floor:
+            break
+        sigma = max(sigma / 2, floor)
+    model, points, turn = best
+    near = points[beside_walls(points, model, BESIDE * 1.5 * model.sigma)]
+    model, _, rotation = climb(near, model, 8, tilt=tilt, noise=True, least=floor)
+    return model, points @ rotation, turn @ rotation
 
 
 def _shell(points: Floats, model: ExactModel) -> float:
     """Expected empty shell of the model's parameters, V / (n S) each."""
-    _, volumes = mass_nodes(model)
-    surface = sum(float(areas.sum()) for _, _, _, _, areas, _ in wall_nodes(model))
+    nodes = wall_nodes(model)
+    _, volumes = mass_nodes(model, nodes)
+    surface = sum(float(node.spread.areas.sum()) for node in nodes)
     return model.size * float(volumes.sum()) / (len(points) * surface)

@@ -8,39 +8,13 @@ from typing import Literal
 import numpy as np
 
 from sketchloft.cloud import Floats, Ints
+from sketchloft.density import Density
 from sketchloft.stack import Run, Stack
 
-__all__ = ["Density", "ExactModel", "Join", "model_of", "thicker", "tied"]
+__all__ = ["ExactModel", "Join", "model_of", "thicker", "tied"]
 
 Slots = tuple[tuple[Ints, ...], ...]
 Join = Literal["step", "cross", "tangent", "pole"]
-
-
-@dataclass(frozen=True)
-class Density:
-    """Points per volume inside: exp of a polynomial in x, y, z.
-
-    Parameters
-    ----------
-    coefficients : (1,), (4,) or (10,) float array
-        Of 1; x, y, z; x², y², z², xy, xz, yz.
-    """
-
-    coefficients: Floats
-
-    def at(self, points: Floats) -> Floats:
-        """Density (n,) at points (n, 3)."""
-        if len(self.coefficients) == 1:
-            return np.full(len(points), np.exp(self.coefficients[0]))
-        terms = self.terms(points, len(self.coefficients))
-        return np.asarray(np.exp(np.clip(terms @ self.coefficients, -50, 50)), dtype=np.float64)
-
-    @staticmethod
-    def terms(points: Floats, count: int) -> Floats:
-        """Values (n, count) of the polynomial's terms."""
-        x, y, z = points.T
-        columns = [np.ones(len(points)), x, y, z, x * x, y * y, z * z, x * y, x * z, y * z]
-        return np.column_stack(columns[:count])
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,8 @@ import itertools
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.exact_model import Density, ExactModel, model_of
+from sketchloft.density import Density
+from sketchloft.exact_model import ExactModel, model_of
 from sketchloft.segment_walls import segment_run
 from sketchloft.stack import Run, Stack
 
@@ -42,7 +43,7 @@ def first_stack(
         found = segment_run(inner, ends, sigma, together, density) if len(inner) >= FEWEST else None
         if found is None:
             continue
-        runs.append(found[0])
+        runs.append(found)
         breaks.append((float(low) + last) / 2)
         last = float(high)
     if not runs:

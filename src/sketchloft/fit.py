@@ -5,13 +5,20 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from sketchloft.cloud import Floats
-from sketchloft.exact_model import Density, ExactModel
+from sketchloft.density import Density, regressed
+from sketchloft.exact_model import ExactModel
+from sketchloft.expected import mass_nodes, wall_nodes
 from sketchloft.joins import joined
-from sketchloft.likelihood import Evaluation, evaluate, mass_nodes, share_of, sound, value_of
+from sketchloft.likelihood import Evaluation, evaluate, share_of
+from sketchloft.soundness import sound
+from sketchloft.tilt import tilted
 
-__all__ = ["climb", "fit_density", "log_likelihood"]
+__all__ = ["climb", "fit_density"]
+
+Bools = NDArray[np.bool_]
 
 STRAY_MOST = 0.06
 """Largest share of strays."""
@@ -21,17 +28,11 @@ STRIDE = 3.0
 """How far a single parameter may move a wall in one step, in noise deviations."""
 
 
-def log_likelihood(points: Floats, model: ExactModel, *, caps: bool = True) -> float:
-    """Log likelihood of all points (n, 3)."""
-    return value_of(points, model, caps=caps) - model.stray * model.space
-
-
 def climb(
     points: Floats,
     model: ExactModel,
     steps: int,
     *,
-    walls: bool = True,
     tilt: bool = False,
     noise: bool = False,
     caps: bool = True,
@@ -47,8 +48,8 @@ def climb(
     model : ExactModel
     steps : int
         At most this many.
-    walls, tilt, noise : bool
-        Whether walls and breaks, the direction, and sigma move.
+    tilt, noise : bool
+        Whether the direction and sigma move, too.
     caps : bool
         Whether the first and last break are walls; without, they are not moved.
     runs : range, optional
@@ -70,7 +71,7 @@ def climb(
     if not np.isfinite(now.value):
         return model, points, turn
     for _ in range(steps):
-        free = _free(model, walls=walls, tilt=tilt, noise=noise)
+        free = _free(model, tilt=tilt, noise=noise)
         if runs is not None:
             free &= _of_runs(model, runs)
         if not caps:
@@ -95,17 +96,12 @@ def climb(
     return model, points, turn
 
 
-def _free(model: ExactModel, *, walls: bool, tilt: bool, noise: bool) -> np.ndarray:
-    free = np.zeros(model.size + len(model.stack.breaks) + 3, dtype=bool)
-    if walls:
-        free[: model.size] = True
-        free[model.size : -3] = [join == "step" for join in model.joins]
-    free[-3:-1] = tilt
-    free[-1] = noise
-    return free
+def _free(model: ExactModel, *, tilt: bool, noise: bool) -> Bools:
+    steps = [join == "step" for join in model.joins]
+    return np.array([*[True] * model.size, *steps, tilt, tilt, noise])
 
 
-def _of_runs(model: ExactModel, runs: range) -> np.ndarray:
+def _of_runs(model: ExactModel, runs: range) -> Bools:
     """Parameters of some runs' walls that no other run shares, the breaks within, and the last three."""
     mine = np.zeros(model.size + len(model.stack.breaks) + 3, dtype=bool)
     mine[-3:] = True
@@ -121,7 +117,7 @@ def _of_runs(model: ExactModel, runs: range) -> np.ndarray:
     return mine
 
 
-def _step(now: Evaluation, free: np.ndarray, damping: float, sigma: float) -> Floats:
+def _step(now: Evaluation, free: Bools, damping: float, sigma: float) -> Floats:
     step = np.zeros(len(now.score))
     index = np.flatnonzero(free)
     information = now.information[np.ix_(index, index)]
@@ -140,25 +136,14 @@ def _moved(model: ExactModel, step: Floats, limits: tuple[float, float]) -> tupl
     breaks = np.maximum.accumulate(model.stack.breaks + step[walls:-3])
     candidate = model.moved(model.vector + step[:walls], breaks)
     sigma = float(np.clip(model.sigma * np.exp(step[-1]), *limits))
-    rotation = _rotation(step[-3], step[-2])
-    return joined(replace(candidate, sigma=sigma)), rotation
-
-
-def _rotation(a: float, b: float) -> Floats:
-    """Matrix to multiply points by from the right that turns them by the vector (a, b, 0)."""
-    angle = float(np.hypot(a, b))
-    if angle == 0:
-        return np.eye(3)
-    skew = np.array([[0.0, 0.0, b], [0.0, 0.0, -a], [-b, a, 0.0]])
-    matrix = np.eye(3) + np.sin(angle) / angle * skew + (1 - np.cos(angle)) / angle**2 * skew @ skew
-    return np.asarray(matrix.T, dtype=np.float64)
+    return joined(replace(candidate, sigma=sigma)), tilted(step[-3], step[-2])
 
 
 def fit_density(points: Floats, model: ExactModel, rounds: int = 3, *, caps: bool = True) -> ExactModel:
     """Fit the density inside and that of the strays to the points (n, 3), the walls held still."""
     if not sound(model):
         return model
-    at, volumes = mass_nodes(model)
+    at, volumes = mass_nodes(model, wall_nodes(model))
     count = len(model.density.coefficients)
     terms, nodes = Density.terms(points, count), Density.terms(at, count)
     for _ in range(rounds):
@@ -167,13 +152,8 @@ def fit_density(points: Floats, model: ExactModel, rounds: int = 3, *, caps: boo
         mass = max(float(np.exp(np.clip(nodes @ coefficients, -50, 50)) @ volumes), 1e-12)
         change = np.log(max(float(share.sum()), 1.0) / mass)
         coefficients[0] += float(np.clip(change, -MOST_CHANGE, MOST_CHANGE))
-        for _ in range(0 if count == 1 else 4):
-            rate = np.exp(np.clip(nodes @ coefficients, -50, 50)) * volumes
-            score = share @ terms - rate @ nodes
-            information = nodes.T @ (rate[:, None] * nodes)
-            coefficients = coefficients + np.linalg.solve(
-                information + 1e-9 * np.trace(information) * np.eye(count), score
-            )
+        if count > 1:
+            coefficients = regressed(coefficients, nodes, volumes, share @ terms, steps=4)
         stray = float((1 - share).sum())
         most = STRAY_MOST * len(points)
         model = replace(

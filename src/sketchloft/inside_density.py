@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from sketchloft.cloud import Floats
-from sketchloft.exact_model import Density
+from sketchloft.density import Density, regressed
 from sketchloft.level_set import LevelSet
 
 __all__ = ["inside_density"]
@@ -26,7 +25,7 @@ def inside_density(points: Floats, grid: LevelSet, together: float) -> Density:
     of points that go together, rises by more than they cost.
     """
     deep = np.argwhere(grid.inside & (grid.level > DEEP))
-    counts = _counts(points, grid)[tuple(deep.T)]
+    counts = grid.counts[tuple(deep.T)].astype(float)
     at = grid.origin + grid.cell * deep
     best = np.array([np.log(len(points) / (grid.inside.sum() * grid.cell**3))])
     if len(deep) < 30:
@@ -37,12 +36,7 @@ def inside_density(points: Floats, grid: LevelSet, together: float) -> Density:
         rows = Density.terms(at, terms)
         coefficients = np.zeros(terms)
         coefficients[0] = mean
-        for _ in range(8):
-            rate = np.exp(np.clip(rows @ coefficients, -30, 30))
-            information = rows.T @ (rate[:, None] * rows)
-            coefficients = coefficients + np.linalg.solve(
-                information + 1e-9 * np.trace(information) * np.eye(terms), rows.T @ (counts - rate)
-            )
+        coefficients = regressed(coefficients, rows, np.ones(len(rows)), counts @ rows, steps=8)
         rate = np.clip(rows @ coefficients, -30, 30)
         price = PRICE * terms * np.log(len(points) / together)
         found = float(counts @ rate - np.exp(rate).sum()) / together - price
@@ -50,10 +44,3 @@ def inside_density(points: Floats, grid: LevelSet, together: float) -> Density:
             value, best = found, coefficients.copy()
             best[0] -= 3 * np.log(grid.cell)
     return Density(best)
-
-
-def _counts(points: Floats, grid: LevelSet) -> NDArray[np.float64]:
-    index = np.rint((points - grid.origin) / grid.cell).astype(int)
-    within = ((index >= 0) & (index < grid.level.shape)).all(axis=1)
-    flat = np.ravel_multi_index(tuple(index[within].T), grid.level.shape)
-    return np.bincount(flat, minlength=grid.level.size).reshape(grid.level.shape).astype(float)

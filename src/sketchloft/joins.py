@@ -52,10 +52,8 @@ def _natural(below: Run, above: Run, height: float, near: float) -> Join:
     (r1, g1), (r2, g2) = (radius_at(wall.profile, np.array([height])) for wall in (first, second))
     gap = abs(float(r1[0] - r2[0]))
     bend = abs(float(np.arctan(g1[0]) - np.arctan(g2[0])))
-    arcs = [isinstance(wall.profile, ArcProfile) for wall in (first, second)]
-    tangent = {first.kind, second.kind} == {"cylinder", "sphere"}
-    if tangent and gap < near:
-        arc = (first if arcs[0] else second).profile
+    if {first.kind, second.kind} == {"cylinder", "sphere"} and gap < near:
+        arc = (first if first.kind == "sphere" else second).profile
         if isinstance(arc, ArcProfile) and abs(arc.height - height) < max(0.2 * arc.radius, near):
             return "tangent"
     if bend < 0.05:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from sketchloft.cloud import Floats
+from sketchloft.cloud import Floats, Ints
 
 __all__ = ["LevelSet", "hollow_share", "level_set", "on_grid"]
 
@@ -33,6 +33,8 @@ class LevelSet:
         Width of a cell.
     blur : float
         Standard deviation of the blur.
+    counts : float32 array of d axes
+        Points in each cell.
     level : float32 array of d axes
         1 deep inside, one half on the wall, 0 outside.
     around : float32 array of d axes
@@ -44,6 +46,7 @@ class LevelSet:
     origin: Floats
     cell: float
     blur: float
+    counts: NDArray[np.float32]
     level: NDArray[np.float32]
     around: NDArray[np.float32]
     inside: NDArray[np.bool_]
@@ -75,9 +78,8 @@ def level_set(points: Floats, together: float = 1.0) -> LevelSet:
         cell = blur / CELLS_PER_BLUR
         origin = low - 5 * blur
         shape = np.ceil((high - low + 10 * blur) / cell).astype(int) + 1
-        index = np.rint((points - origin) / cell).astype(int)
-        within = ((index >= 0) & (index < shape)).all(axis=1)
-        flat = np.ravel_multi_index(tuple(index[within].T), tuple(shape))
+        index, _ = _cells(points, origin, cell, shape)
+        flat = np.ravel_multi_index(index, tuple(shape))
         counts = np.bincount(flat, minlength=int(np.prod(shape))).reshape(shape).astype(np.float32)
         density = ndimage.gaussian_filter(counts, CELLS_PER_BLUR, truncate=3)
         seen, all_points = (
@@ -89,7 +91,16 @@ def level_set(points: Floats, together: float = 1.0) -> LevelSet:
         level = density / around
         inside = _large_pieces(level > 0.5, counts)
         volume = max(float(inside.sum()) * cell**axes, 1e-12)
-    return LevelSet(origin, cell, blur, level, around, inside)
+    return LevelSet(origin, cell, blur, counts, level, around, inside)
+
+
+def _cells(
+    points: Floats, origin: Floats, cell: float, shape: Ints
+) -> tuple[tuple[Ints, ...], NDArray[np.bool_]]:
+    """Indices of the cells that points (n, d) lie in, one array an axis, and which points (n,) lie in any."""
+    index = np.rint((points - origin) / cell).astype(np.intp)
+    within = np.all((index >= 0) & (index < shape), axis=1)
+    return tuple(index[within].T), np.asarray(within)
 
 
 def _large_pieces(mask: NDArray[np.bool_], counts: NDArray[np.float32]) -> NDArray[np.bool_]:
@@ -115,8 +126,7 @@ def on_grid(grid: LevelSet, points: Floats, margin: float) -> NDArray[np.bool_]:
     from scipy import ndimage  # noqa: PLC0415
 
     far = ndimage.distance_transform_edt(~grid.inside) * grid.cell
-    index = np.rint((points - grid.origin) / grid.cell).astype(int)
-    within = ((index >= 0) & (index < grid.level.shape)).all(axis=1)
+    index, within = _cells(points, grid.origin, grid.cell, np.array(grid.level.shape))
     found = np.zeros(len(points), dtype=bool)
-    found[within] = far[tuple(index[within].T)] <= margin
+    found[within] = far[index] <= margin
     return found

@@ -13,33 +13,13 @@ from numpy.typing import NDArray
 
 from sketchloft.cloud import Floats, Ints
 from sketchloft.exact_model import ExactModel
-from sketchloft.outline.circle import Circle
-from sketchloft.outline.ellipse import Ellipse
-from sketchloft.stack import Run, Wall
-from sketchloft.wall.lofted import Lofted
-from sketchloft.wall.profile import ArcProfile, SplineProfile
-from sketchloft.wall.revolved import Revolved
-from sketchloft.wall.swept import Swept
+from sketchloft.expected import expected_points, expected_slope, wall_nodes
+from sketchloft.soundness import sound
 
-__all__ = [
-    "Evaluation",
-    "beside_walls",
-    "covers",
-    "evaluate",
-    "mass_nodes",
-    "share_of",
-    "sound",
-    "value_of",
-    "wall_nodes",
-]
+__all__ = ["Evaluation", "beside_walls", "evaluate", "share_of", "value_of"]
 
 REACH = 5.0
 """Noise deviations beyond which a wall is taken to be a sharp step."""
-LEVELS = 17
-"""Heights of a run at which its sections are looked at."""
-NODES = 120
-"""Points per wall to integrate the density with."""
-RADIAL = np.polynomial.legendre.leggauss(3)
 
 
 @dataclass(frozen=True)
@@ -79,18 +59,18 @@ def evaluate(points: Floats, model: ExactModel, *, caps: bool = True) -> Evaluat
     caps : bool
         Whether the first and last break are walls. Without, all points must lie between them.
     """
-    walls, breaks = model.size, len(model.stack.breaks)
+    size = model.size + len(model.stack.breaks)
+    if not sound(model):
+        nothing = np.zeros(size + 3)
+        return Evaluation(-np.inf, nothing, np.zeros((size + 3, size + 3)), nothing)
     inside, slope, reach = _inside(points, model, model.sigma, gradient=True, caps=caps)
     rho = model.density.at(points)
     total = rho * inside + model.stray
     ratio = (rho / total)[:, None] * slope
     score = ratio.sum(axis=0)
-    value = float(np.log(total).sum())
-    if sound(model):
-        value -= _mass(model)
-        score[: walls + breaks] -= _mass_slope(model, caps=caps)
-    else:
-        value = -np.inf
+    nodes = wall_nodes(model)
+    score[:size] -= expected_slope(model, nodes, caps=caps)
+    value = float(np.log(total).sum()) - expected_points(model, nodes)
     return Evaluation(value, score, ratio.T @ ratio, reach)
 
 
@@ -99,60 +79,14 @@ def value_of(points: Floats, model: ExactModel, *, caps: bool = True) -> float:
     if not sound(model):
         return -np.inf
     inside = _inside(points, model, model.sigma, gradient=False, caps=caps)[0]
-    return float(np.log(model.density.at(points) * inside + model.stray).sum()) - _mass(model)
+    total = model.density.at(points) * inside + model.stray
+    return float(np.log(total).sum()) - expected_points(model, wall_nodes(model))
 
 
 def share_of(points: Floats, model: ExactModel, *, caps: bool = True) -> Floats:
     """(n,) probability of each point to be none of the strays."""
     inside = model.density.at(points) * _inside(points, model, model.sigma, gradient=False, caps=caps)[0]
     return inside / (inside + model.stray)
-
-
-def sound(model: ExactModel) -> bool:
-    """Whether the breaks rise, and every wall encloses something and nowhere crosses itself."""
-    breaks = model.stack.breaks
-    if not np.isfinite(model.vector).all() or not (np.diff(breaks) > 0).all():
-        return False
-    for j, run in enumerate(model.stack.runs):
-        if any(not covers(wall, breaks[j], breaks[j + 1]) for wall in run.walls):
-            return False
-        ends = np.linspace(breaks[j], breaks[j + 1], LEVELS)
-        at = ends[LEVELS // 3 : -(LEVELS // 3)]  # a sphere may end before its break does
-        if any((wall.area(at) <= 0).any() or not _simple(wall, ends[:: LEVELS // 8]) for wall in run.walls):
-            return False
-    return True
-
-
-def _simple(wall: Wall, heights: Floats) -> bool:
-    """Whether the sections at heights (m,) nowhere cross themselves."""
-    from shapely import is_valid, linearrings, polygons  # noqa: PLC0415
-
-    if isinstance(wall, Lofted):
-        count = 4 * wall.poles.shape[1]
-        rings = wall.ring(heights, np.arange(count) / count)
-    elif isinstance(wall, Swept) and not isinstance(wall.outline, (Circle, Ellipse)):
-        rings = wall.outline.boundary(64).points[None]
-    else:
-        return True
-    return bool(is_valid(polygons(linearrings(rings))).all())
-
-
-def covers(wall: Wall, low: float, high: float) -> bool:
-    """Whether a spline's knots, or a torus, reach over a stretch of heights."""
-    ends = (-np.inf, np.inf)
-    if isinstance(wall, Lofted):
-        ends = wall.knots[0], wall.knots[-1]
-    if isinstance(wall, Revolved) and isinstance(wall.profile, SplineProfile):
-        ends = wall.profile.knots[0], wall.profile.knots[-1]
-        if not (wall.area(np.linspace(low, high, LEVELS)) > 0).all():
-            return False
-    if (
-        isinstance(wall, Revolved)
-        and isinstance(wall.profile, ArcProfile)
-        and wall.profile.offset is not None
-    ):
-        ends = wall.profile.height - wall.profile.radius, wall.profile.height + wall.profile.radius
-    return bool(ends[0] <= low and high <= ends[1])
 
 
 def _inside(
@@ -200,9 +134,9 @@ def _section(
     points: Floats, model: ExactModel, j: int, sigma: float, *, gradient: bool
 ) -> tuple[Floats, list[tuple[Ints, Floats, Floats]], Floats, Floats]:
     """Soft indicator of a run's section, its derivatives by each wall, by the tilt and by log sigma."""
-    run = model.stack.runs[j]
     from scipy.special import ndtr  # noqa: PLC0415
 
+    run = model.stack.runs[j]
     feet = [wall.foot(points) for wall in run.walls]
     signs = np.array([run.sign(i) for i in range(len(feet))])
     depth = [
@@ -210,14 +144,9 @@ def _section(
         for sign, foot in zip(signs, feet, strict=True)
     ]
     soft = [ndtr(d / sigma) for d in depth]
-    outer = np.zeros(len(points)) if (signs > 0).any() else np.ones(len(points))
-    for s, sign in zip(soft, signs, strict=True):
-        if sign > 0:
-            outer = outer + s
-    voids = np.ones(len(points))
-    for s, sign in zip(soft, signs, strict=True):
-        if sign < 0:
-            voids = voids * s
+    pieces = len(soft) - run.holes
+    outer = np.sum(soft[:pieces], axis=0) if pieces else np.ones(len(points))
+    voids = np.prod(soft[pieces:], axis=0)
     tilt, grown = np.zeros((len(points), 2)), np.zeros(len(points))
     slopes: list[tuple[Ints, Floats, Floats]] = []
     if not gradient:
@@ -236,76 +165,3 @@ def _section(
         tilt[:, 1] -= signs[i] * bell * (nx * z - nz * x)
         grown -= bell * depth[i]
     return outer * voids, slopes, tilt, grown
-
-
-def wall_nodes(model: ExactModel) -> list[tuple[int, int, Floats, Floats, Floats, int]]:
-    """Run, wall, points, normals, areas and sign of each wall's integration points."""
-    found = []
-    breaks = model.stack.breaks
-    for j, run in enumerate(model.stack.runs):
-        if breaks[j + 1] <= breaks[j]:
-            continue
-        for i, wall in enumerate(run.walls):
-            spread = wall.boundary(breaks[j], breaks[j + 1], NODES)
-            found.append((j, i, spread.points, spread.normals, spread.areas, run.sign(i)))
-    return found
-
-
-def mass_nodes(model: ExactModel) -> tuple[Floats, Floats]:
-    """Points (m, 3) in the solid and the volumes (m,) they stand for; those of holes are negative."""
-    points, volumes = [], []
-    for _, _, at, normals, areas, sign in wall_nodes(model):
-        p, v = _fan(at, normals, areas)
-        points.append(p)
-        volumes.append(sign * v)
-    if model.core is not None:
-        points.append(model.core[:, :3])
-        volumes.append(-model.core[:, 3])
-    return np.concatenate(points), np.concatenate(volumes)
-
-
-def _fan(at: Floats, normals: Floats, areas: Floats) -> tuple[Floats, Floats]:
-    """Spread wall points over the sections that they enclose (Gauss's theorem in each section)."""
-    centre = (areas @ at[:, :2]) / max(float(areas.sum()), 1e-300)
-    spoke = at[:, :2] - centre
-    share = areas * np.einsum("ij,ij->i", normals[:, :2], spoke) / 2
-    x, w = RADIAL
-    t, weight = (x + 1) / 2, w / 2
-    points = np.concatenate([np.column_stack([centre + r * spoke, at[:, 2]]) for r in t])
-    return points, np.concatenate([2 * r * v * share for r, v in zip(t, weight, strict=True)])
-
-
-def _mass(model: ExactModel) -> float:
-    points, volumes = mass_nodes(model)
-    mass = float(model.density.at(points) @ volumes)
-    return mass if mass > 0 else np.inf  # it has lost all its points
-
-
-def _mass_slope(model: ExactModel, *, caps: bool) -> Floats:
-    """Derivatives of the expected number of points by walls and breaks."""
-    walls, breaks = model.size, model.stack.breaks
-    slope = np.zeros(walls + len(breaks))
-    for j, i, at, _, areas, sign in wall_nodes(model):
-        gradient = model.stack.runs[j].walls[i].foot(at).gradient
-        np.add.at(slope, model.slots[j][i], -sign * (areas * model.density.at(at)) @ gradient)
-    for j, run in enumerate(model.stack.runs):
-        for k, sign in ((j, -1), (j + 1, 1)):
-            if not caps and k in (0, len(breaks) - 1):
-                continue
-            slope[walls + k] += sign * _section_mass(model, run, float(breaks[k]))
-    return slope
-
-
-def _section_mass(model: ExactModel, run: Run, height: float) -> float:
-    """Expected points per height of a run's section at a height."""
-    total, thin = 0.0, 1e-6
-    for i, wall in enumerate(run.walls):
-        if len(model.density.coefficients) == 1:
-            total += (
-                run.sign(i) * float(wall.area(np.array([height]))[0]) * model.density.at(np.zeros((1, 3)))[0]
-            )
-            continue
-        spread = wall.boundary(height - thin / 2, height + thin / 2, 64)
-        points, volumes = _fan(spread.points, spread.normals, spread.areas / thin)
-        total += run.sign(i) * float(model.density.at(points) @ volumes)
-    return total

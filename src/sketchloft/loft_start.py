@@ -9,7 +9,7 @@ import numpy as np
 from sketchloft.cloud import Floats
 from sketchloft.section_contours import contours
 from sketchloft.shapes.spline import fit_spline, resampled
-from sketchloft.surface import basis_matrix
+from sketchloft.surface import basis_matrix, even_knots
 from sketchloft.wall.lofted import Lofted, lofted
 
 __all__ = ["loft_start"]
@@ -55,8 +55,7 @@ def loft_start(
         heights.append(float(slab[:, 2].mean()))
         rings.append(_matched(outer[0], rings[-1] if rings else None))
     margin = 0.06 * (high - low) + 0.01
-    inner_knots = np.linspace(low - margin, high + margin, spans + 1)
-    knots = np.r_[np.repeat(inner_knots[0], 3), inner_knots, np.repeat(inner_knots[-1], 3)]
+    knots = even_knots(low - margin, high + margin, spans)
     sections = np.array([fit_spline(ring, around).poles for ring in rings])
     basis = basis_matrix(knots, Lofted.degree, np.array(heights))
     smooth = 0.05 * np.diff(np.eye(basis.shape[1]), 2, axis=0)

@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from sketchloft.cloud import Floats, Unit
+from sketchloft.density import Density
 from sketchloft.dispersion import dispersion
 from sketchloft.errors import InputError
 from sketchloft.exact import ROOM, ExactBody
 from sketchloft.exact_fit import sharpened
-from sketchloft.exact_model import Density, ExactModel
+from sketchloft.exact_model import ExactModel
 from sketchloft.fit import climb, fit_density
 from sketchloft.inside_density import inside_density
 from sketchloft.level_set import level_set
@@ -21,6 +22,7 @@ from sketchloft.likelihood import beside_walls
 from sketchloft.plan.from_model import planned_from_model
 from sketchloft.plan.plan import Plan, PlannedBody
 from sketchloft.plan.to_model import model_from_plan
+from sketchloft.robust_box import middle_and_size
 from sketchloft.stack_volume import stack_volume
 
 if TYPE_CHECKING:
@@ -94,8 +96,8 @@ def planned_body(
         If the solid fails a check.
     """
     progress("fit")
-    low, high = np.quantile(points, [0.004, 0.996], axis=0)
-    scale, centre, frame = float(np.linalg.norm(high - low)), plan.centre - origin, plan.frame
+    _, scale = middle_and_size(points)
+    centre, frame = plan.centre - origin, plan.frame
     local = frame.to_local((points - centre) / scale)
     model = planned_model(local, plan, scale)
     if fit:
@@ -138,7 +140,7 @@ def planned_model(points: Floats, plan: PlannedBody, scale: float) -> ExactModel
 
 def _refitted(points: Floats, model: ExactModel) -> ExactModel:
     grid = level_set(points)
-    model = replace(model, density=inside_density(points, grid, dispersion(points, grid)))
+    model = replace(model, density=inside_density(points, grid, dispersion(grid)))
     for noise in NOISES:
         model = fit_density(points, replace(model, sigma=noise), 2)
         near = beside_walls(points, model, BESIDE * noise)

@@ -7,11 +7,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.exact_model import Density, ExactModel, model_of
-from sketchloft.fit import climb, fit_density, log_likelihood
+from sketchloft.density import Density
+from sketchloft.exact_model import ExactModel, model_of
+from sketchloft.fit import climb, fit_density
 from sketchloft.outline.candidates import chains, circle_of, ellipse_of, polygons, spline_of
 from sketchloft.outline.outline import Outline
-from sketchloft.outline.polygons import Polygon
+from sketchloft.outline.polygons import Polygon, corner_areas
+from sketchloft.ring import ring_length
+from sketchloft.schwarz import evidence
 from sketchloft.section_contours import contours
 from sketchloft.shapes.spline import resampled
 from sketchloft.stack import Run, Stack
@@ -37,13 +40,10 @@ class SectionShape:
     outlines : tuple of Outline
         Those of pieces, then those of holes.
     holes : int
-    sigma : float
-        How sharp the walls look once the points are moved to one section.
     """
 
     outlines: tuple[Outline, ...]
     holes: int
-    sigma: float
 
 
 def recognise_section(points: Floats, together: float) -> SectionShape | None:
@@ -58,31 +58,28 @@ def recognise_section(points: Floats, together: float) -> SectionShape | None:
     outer, holes, blur = contours(points, together)
     if not outer:
         return None
-    found = [
-        _best(points, ring, blur, together, hole=i >= len(outer)) for i, ring in enumerate([*outer, *holes])
-    ]
-    return SectionShape(
-        tuple(outline for outline, _ in found), len(holes), float(np.median([sigma for _, sigma in found]))
-    )
+    outlines = [_best(points, ring, blur, together, hole=False) for ring in outer]
+    outlines += [_best(points, ring, blur, together, hole=True) for ring in holes]
+    return SectionShape(tuple(outlines), len(holes))
 
 
-def _best(points: Floats, ring: Floats, blur: float, together: float, *, hole: bool) -> tuple[Outline, float]:
-    """Find the best outline for one loop, and how sharp it looks, from the points beside it."""
+def _best(points: Floats, ring: Floats, blur: float, together: float, *, hole: bool) -> Outline:
+    """Find the best outline for one loop from the points beside it."""
     near, core, area = _beside(points, ring, BESIDE * blur, hole=hole)
-    tried: list[tuple[float, Outline, float]] = []
+    tried: list[tuple[float, Outline]] = []
 
     def attempt(outline: Outline) -> float:
         model, value = _fitted(near, _model(near, core, area, outline, 0.5 * blur, hole=hole), together)
         wall = model.stack.runs[0].walls[0]
         if isinstance(wall, Swept):
-            tried.append((value, wall.outline, model.sigma))
+            tried.append((value, wall.outline))
         return value
 
     free = attempt(spline_of(ring, POLES[0]))
     circle = attempt(circle_of(ring))
     ellipse = attempt(ellipse_of(ring))
     if circle > max(free, ellipse):
-        return tried[1][1:]
+        return tried[1][1]
     cut = chains(ring, blur)
     for outline in cut:
         attempt(outline)
@@ -100,16 +97,13 @@ def _best(points: Floats, ring: Floats, blur: float, together: float, *, hole: b
         if max(tried, key=lambda found: found[0])[0] > free:
             break
         free = attempt(spline_of(ring, poles))
-    return max(tried, key=lambda found: found[0])[1:]
+    return max(tried, key=lambda found: found[0])[1]
 
 
 def _simpler(polygon: Polygon) -> Polygon:
     """Drop the corner whose triangle with its neighbours is smallest."""
-    v = polygon.vertices
-    before, after = np.roll(v, 1, axis=0) - v, np.roll(v, -1, axis=0) - v
-    return Polygon(
-        np.delete(v, int(np.argmin(np.abs(before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]))), axis=0)
-    )
+    smallest = int(np.argmin(corner_areas(polygon.vertices)))
+    return Polygon(np.delete(polygon.vertices, smallest, axis=0))
 
 
 def _beside(points: Floats, ring: Floats, width: float, *, hole: bool) -> tuple[Floats, Floats, float]:
@@ -118,8 +112,7 @@ def _beside(points: Floats, ring: Floats, width: float, *, hole: bool) -> tuple[
     from shapely import Polygon as Region  # noqa: PLC0415
     from shapely import contains_xy  # noqa: PLC0415
 
-    length = float(np.linalg.norm(np.roll(ring, -1, axis=0) - ring, axis=1).sum())
-    dense = resampled(ring, int(np.ceil(4 * length / width)))
+    dense = resampled(ring, int(np.ceil(4 * ring_length(ring) / width)))
     away, _ = cKDTree(dense).query(points, distance_upper_bound=width)
     near = points[np.isfinite(away)]
     region = Region(dense)
@@ -152,7 +145,7 @@ def _model(
 
 
 def _fitted(points: Floats, model: ExactModel, together: float) -> tuple[ExactModel, float]:
-    """Fit, and the evidence: log likelihood less half the log of the points per parameter."""
+    """Fit, and the evidence."""
     at = np.column_stack([points, np.zeros(len(points))])
     start = model.density.coefficients[0]
     model, at, _ = climb(at, model, 5, caps=False)
@@ -162,5 +155,4 @@ def _fitted(points: Floats, model: ExactModel, together: float) -> tuple[ExactMo
     crowded = model.density.coefficients[0] - start > np.log(CROWDED)
     if crowded:  # it gave up most of the points
         return model, -np.inf
-    value = log_likelihood(at, model, caps=False) / together
-    return model, value - 0.5 * model.size * float(np.log(len(points) / together))
+    return model, evidence(at, model, together)

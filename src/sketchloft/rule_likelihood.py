@@ -1,7 +1,7 @@
 """Rule likelihood: how well a direction explains the points, before any shape is recognised.
 
 Along the right direction, each segment's points fall on one sharp section once they are moved along the
-segment's rule (`plan_of`). The density of a point is then that of its height times that of its place in
+segment's rule (`plan_view`). The density of a point is then that of its height times that of its place in
 the section. Seen along a wrong direction the sections smear, and the likelihood drops.
 """
 
@@ -12,7 +12,7 @@ import itertools
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.section_contours import plan_of
+from sketchloft.section_contours import plan_view
 from sketchloft.segments import SegmentsParams, cut
 
 __all__ = ["rule_likelihood"]
@@ -38,7 +38,7 @@ def rule_likelihood(points: Floats, params: SegmentsParams, together: float) -> 
         if len(inner) < FEWEST:
             total += len(inner) * -np.log((high - low) * 1.0) if len(inner) else 0.0
             continue
-        plan = plan_of(inner, together)
+        plan = plan_view(inner, together)
         along = _heights(inner[:, 2], float(start), float(stop))
         across = _places(plan.points)
         total += float((np.log(along) + np.log(across) - 2 * np.log(plan.scale)).sum()) + len(inner) * np.log(

@@ -8,8 +8,9 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.level_set import LevelSet, level_set
+from sketchloft.ring import ring_area
 
-__all__ = ["Plan", "contours", "plan_of"]
+__all__ = ["PlanView", "contours", "plan_view"]
 
 SIGNIFICANT = 3.0
 """Logarithms of the number of points that a drift or a change of size must gain to be believed."""
@@ -20,7 +21,7 @@ PIECE = 0.03
 
 
 @dataclass(frozen=True)
-class Plan:
+class PlanView:
     """The points of a segment, moved along its rule to one section.
 
     Parameters
@@ -46,7 +47,7 @@ class Plan:
     growth: Floats
 
 
-def plan_of(points: Floats, together: float = 1.0) -> Plan:
+def plan_view(points: Floats, together: float = 1.0) -> PlanView:
     """Move the points (n, 3) of a segment to one section.
 
     Notes
@@ -70,7 +71,7 @@ def plan_of(points: Floats, together: float = 1.0) -> Plan:
     square = np.einsum("ij,ij->i", arm, arm)
     growth = _growth(dz, square, price)
     scale = np.sqrt(np.maximum(growth[0] + growth[1] * dz + growth[2] * dz**2, 0.02))
-    return Plan(centre + arm / scale[:, None], height, centre, drift, scale, growth)
+    return PlanView(centre + arm / scale[:, None], height, centre, drift, scale, growth)
 
 
 def _growth(dz: Floats, square: Floats, price: float) -> Floats:
@@ -116,7 +117,7 @@ def contours(points: Floats, together: float = 1.0) -> tuple[list[Floats], list[
     generator = contourpy.contour_generator(z=level.T)
     loops = [np.asarray(line, dtype=float)[:-1] for line in generator.lines(0.5)]
     loops = [grid.origin + grid.cell * loop for loop in loops if len(loop) >= 8]
-    areas = np.array([_area(loop) for loop in loops])
+    areas = np.array([ring_area(loop) for loop in loops])
     if not len(areas):
         return [], [], grid.blur
     outer_sign = np.sign(areas[np.argmax(np.abs(areas))])
@@ -137,8 +138,3 @@ def _missing(grid: LevelSet, ring: Floats, area: float) -> float:
     low, high = ((end(axis=0) - grid.origin) / grid.cell for end in (ring.min, ring.max))
     box = tuple(slice(int(a), int(np.ceil(b)) + 1) for a, b in zip(low, high, strict=True))
     return float(grid.around[box].mean()) * area / grid.cell**2 * (1 - 2 * float(grid.level[box].min()))
-
-
-def _area(ring: Floats) -> float:
-    after = np.roll(ring, -1, axis=0)
-    return float((ring[:, 0] * after[:, 1] - ring[:, 1] * after[:, 0]).sum() / 2)

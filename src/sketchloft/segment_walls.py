@@ -7,36 +7,33 @@ from dataclasses import replace
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.exact_model import Density, ExactModel, model_of
-from sketchloft.fit import climb, fit_density, log_likelihood
-from sketchloft.likelihood import covers
+from sketchloft.density import Density
+from sketchloft.exact_model import ExactModel, model_of
+from sketchloft.fit import climb, fit_density
 from sketchloft.outline.circle import Circle
 from sketchloft.outline.outline import Outline
 from sketchloft.recognise_section import SectionShape, recognise_section
-from sketchloft.section_contours import Plan, plan_of
+from sketchloft.schwarz import evidence
+from sketchloft.section_contours import PlanView, plan_view
+from sketchloft.soundness import covers
 from sketchloft.stack import Run, Stack, Wall
-from sketchloft.surface import basis_matrix
+from sketchloft.surface import basis_matrix, even_knots
 from sketchloft.twist import twist_of, untwisted
 from sketchloft.wall.profile import ArcProfile, LineProfile, SplineProfile
 from sketchloft.wall.revolved import Revolved
 from sketchloft.wall.swept import Freedom, Swept
 
-__all__ = ["evidence_price", "segment_run", "spline_knots"]
+__all__ = ["segment_run"]
 
 MOST_POINTS = 3000
 REACH = 0.03
 """How far beyond the segment's ends its walls must go, in sizes of the cloud: its breaks may move."""
 
 
-def evidence_price(parameters: int, count: int, together: float) -> float:
-    """Log likelihood that so many parameters must gain on a number of points (Schwarz's criterion)."""
-    return 0.5 * parameters * float(np.log(max(count / together, 3.0)))
-
-
 def segment_run(
     points: Floats, ends: tuple[float, float], sigma: float, together: float, density: Density
-) -> tuple[Run, float] | None:
-    """Find the walls of a segment.
+) -> Run | None:
+    """Find the walls of a segment; None if its points have no section.
 
     Parameters
     ----------
@@ -50,15 +47,8 @@ def segment_run(
         How many of the points go together.
     density : Density
         Inside, about.
-
-    Returns
-    -------
-    Run
-        None where the points have no section.
-    float
-        Its noise.
     """
-    plan = plan_of(points, together)
+    plan = plan_view(points, together)
     twist = twist_of(plan, points[:, 2] - plan.height)
     if twist:
         plan = untwisted(plan, points[:, 2] - plan.height, twist)
@@ -73,20 +63,10 @@ def segment_run(
         walls = model.stack.runs[0].walls
         if not all(covers(wall, ends[0] - REACH, ends[1] + REACH) for wall in walls):
             continue
-        value = log_likelihood(points, model, caps=False) / together - evidence_price(
-            model.size, len(points), together
-        )
+        value = evidence(points, model, together)
         if best is None or value > best[0]:
             best = value, model
-    if best is None:
-        return None
-    return best[1].stack.runs[0], best[1].sigma
-
-
-def spline_knots(low: float, high: float, spans: int, margin: float) -> Floats:
-    """Clamped cubic knots, evenly spaced over a stretch of heights and a margin around it."""
-    inner = np.linspace(low - margin, high + margin, spans + 1)
-    return np.r_[np.repeat(inner[0], 3), inner, np.repeat(inner[-1], 3)]
+    return None if best is None else best[1].stack.runs[0]
 
 
 def _fitted(
@@ -101,7 +81,7 @@ def _fitted(
     return fit_density(points, model, 2, caps=False)
 
 
-def _runs(plan: Plan, shape: SectionShape, ends: tuple[float, float], twist: float) -> list[Run]:
+def _runs(plan: PlanView, shape: SectionShape, ends: tuple[float, float], twist: float) -> list[Run]:
     """Ways in which the section may go along the segment, the simplest first."""
     changing = bool(np.any(plan.growth[1:]))
     options = [_walls(plan, outline, ends, twist, changing=changing) for outline in shape.outlines]
@@ -112,7 +92,7 @@ def _runs(plan: Plan, shape: SectionShape, ends: tuple[float, float], twist: flo
 
 
 def _walls(
-    plan: Plan, outline: Outline, ends: tuple[float, float], twist: float, *, changing: bool
+    plan: PlanView, outline: Outline, ends: tuple[float, float], twist: float, *, changing: bool
 ) -> list[Wall]:
     slanted = bool(np.any(plan.drift))
     _, first, _ = plan.growth
@@ -135,7 +115,7 @@ def _walls(
     return walls
 
 
-def _revolved(plan: Plan, circle: Circle, ends: tuple[float, float], *, changing: bool) -> list[Wall]:
+def _revolved(plan: PlanView, circle: Circle, ends: tuple[float, float], *, changing: bool) -> list[Wall]:
     _, first, second = plan.growth
     height, radius = plan.height, circle.radius
     profiles: list[LineProfile | ArcProfile | SplineProfile] = [LineProfile(height, radius, None)]
@@ -147,7 +127,8 @@ def _revolved(plan: Plan, circle: Circle, ends: tuple[float, float], *, changing
         z = np.linspace(*ends, 24)
         r = radius * np.sqrt(np.maximum(1 + first * (z - height) + second * (z - height) ** 2, 0.01))
         profiles.extend(_tori(z, r))
-        knots = spline_knots(*ends, 3, 0.1 * (ends[1] - ends[0]) + REACH)
+        margin = 0.1 * (ends[1] - ends[0]) + REACH
+        knots = even_knots(ends[0] - margin, ends[1] + margin, 3)
         basis = basis_matrix(knots, 3, z)
         profiles.append(SplineProfile(knots, np.linalg.lstsq(basis, r, rcond=None)[0]))
     return [Revolved(circle.centre, profile) for profile in profiles]

@@ -13,7 +13,7 @@ from sketchloft.outline.circle import Circle
 from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.outline import Outline
 from sketchloft.outline.placed_polygons import Rectangle, RoundedRectangle
-from sketchloft.outline.polygons import LineArc, Polygon
+from sketchloft.outline.polygons import LineArc, Polygon, corner_areas
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import SplineLoop
 from sketchloft.stack import Wall
@@ -94,5 +94,4 @@ def _with_fewer_corners(outline: Outline) -> Iterator[Outline]:
 
 def _flattest(vertices: Floats) -> list[int]:
     """The corners whose triangles with their neighbours are smallest, three at most."""
-    before, after = np.roll(vertices, 1, axis=0) - vertices, np.roll(vertices, -1, axis=0) - vertices
-    return [int(k) for k in np.argsort(np.abs(before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]))[:3]]
+    return [int(k) for k in np.argsort(corner_areas(vertices))[:3]]

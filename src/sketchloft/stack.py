@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.wall.lofted import Lofted
@@ -33,6 +37,10 @@ class Run:
         """1 for an outer wall, -1 for the wall of a hole."""
         return -1 if index >= len(self.walls) - self.holes else 1
 
+    def area(self, heights: Floats) -> Floats:
+        """Area of the sections at heights (m,), without the holes."""
+        return np.asarray(sum(self.sign(i) * wall.area(heights) for i, wall in enumerate(self.walls)))
+
 
 @dataclass(frozen=True)
 class Stack:
@@ -48,3 +56,8 @@ class Stack:
 
     breaks: Floats
     runs: tuple[Run, ...]
+
+    def slabs(self) -> Iterator[tuple[Run, float, float]]:
+        """Each run with the heights of the breaks below and above it."""
+        for run, (low, high) in zip(self.runs, pairwise(self.breaks.tolist()), strict=True):
+            yield run, low, high

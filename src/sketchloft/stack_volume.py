@@ -26,7 +26,7 @@ def stack_volume(stack: Stack) -> float:
     their angle, where the radius is smooth up to the pole.
     """
     total = 0.0
-    for run, low, high in zip(stack.runs, stack.breaks[:-1].tolist(), stack.breaks[1:].tolist(), strict=True):
+    for run, low, high in stack.slabs():
         for index, wall in enumerate(run.walls):
             heights, weights = _quadrature(wall, low, high)
             total += run.sign(index) * float(wall.area(heights) @ weights)

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from sketchloft.cloud import Floats, Ints
 
-__all__ = ["SkinSurface", "basis_matrix", "distinct_knots", "evaluate"]
+__all__ = ["SkinSurface", "basis_matrix", "distinct_knots", "evaluate", "even_knots", "local_basis"]
 
 
 @dataclass(frozen=True)
@@ -36,6 +36,12 @@ class SkinSurface:
     u_degree: int
     v_degree: int
     weights: Floats | None = None
+
+
+def even_knots(low: float, high: float, spans: int, degree: int = 3) -> Floats:
+    """Clamped knots (spans + 2 degree + 1,) that divide an interval evenly."""
+    inner = np.linspace(low, high, spans + 1)
+    return np.r_[np.repeat(inner[0], degree), inner, np.repeat(inner[-1], degree)]
 
 
 def distinct_knots(knots: Floats) -> Floats:
@@ -66,7 +72,7 @@ def basis_matrix(knots: Floats, degree: int, at: ArrayLike, derivative: int = 0)
     ----------
     L. Piegl, W. Tiller, The NURBS Book, 2nd ed., Springer 1997, sections 2.2-2.5.
     """
-    first, values = _local_basis(knots, degree, at, derivative)
+    first, values = local_basis(knots, degree, at, derivative)
     matrix = np.zeros((len(first), len(knots) - degree - 1))
     np.put_along_axis(matrix, first[:, None] + np.arange(degree + 1), values, axis=1)
     return matrix
@@ -91,8 +97,8 @@ def evaluate(
     -------
     (b, a, 3) float array
     """
-    around = _local_basis(surface.u_knots, surface.u_degree, u, u_derivative)
-    along = _local_basis(surface.v_knots, surface.v_degree, v, v_derivative)
+    around = local_basis(surface.u_knots, surface.u_degree, u, u_derivative)
+    along = local_basis(surface.v_knots, surface.v_degree, v, v_derivative)
     if surface.weights is None:
         return _blend(surface.poles, around, along)
     weights = surface.weights[..., None]
@@ -101,13 +107,16 @@ def evaluate(
     if not u_derivative and not v_derivative:
         return weighted / rate
     # The quotient rule (NURBS Book, eq. 4.8).
-    u_basis = _local_basis(surface.u_knots, surface.u_degree, u)
-    v_basis = _local_basis(surface.v_knots, surface.v_degree, v)
+    u_basis = local_basis(surface.u_knots, surface.u_degree, u)
+    v_basis = local_basis(surface.v_knots, surface.v_degree, v)
     return (weighted - rate * evaluate(surface, u, v)) / _blend(weights, u_basis, v_basis)
 
 
-def _local_basis(knots: Floats, degree: int, at: ArrayLike, derivative: int = 0) -> tuple[Ints, Floats]:
-    """Index (m,) of the first basis function that is not 0, and the degree + 1 of them from there on."""
+def local_basis(knots: Floats, degree: int, at: ArrayLike, derivative: int = 0) -> tuple[Ints, Floats]:
+    """Index (m,) of the first basis function that is not 0, and the degree + 1 of them from there on.
+
+    As `basis_matrix`, without the zeros.
+    """
     x = np.clip(np.atleast_1d(np.asarray(at, dtype=np.float64)), knots[0], knots[-1])
     span = np.clip(np.searchsorted(knots, x, side="right") - 1, degree, len(knots) - degree - 2)
     values = np.zeros((len(x), degree + 1))

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.section_contours import Plan
+from sketchloft.section_contours import PlanView
 
 __all__ = ["twist_of", "untwisted"]
 
@@ -22,12 +22,12 @@ BETTER = 1.25
 MOST_POINTS = 3000
 
 
-def twist_of(plan: Plan, heights: Floats) -> float:
+def twist_of(plan: PlanView, heights: Floats) -> float:
     """Turn per height, in radians, at which the section's outline is sharpest; 0 where it does not turn.
 
     Parameters
     ----------
-    plan : Plan
+    plan : PlanView
     heights : (n,) float array
         Of its points, relative to the plan's.
 
@@ -53,7 +53,7 @@ def twist_of(plan: Plan, heights: Floats) -> float:
     return twist if best > CLEAR and best > BETTER * still else 0.0
 
 
-def untwisted(plan: Plan, heights: Floats, twist: float) -> Plan:
+def untwisted(plan: PlanView, heights: Floats, twist: float) -> PlanView:
     """Plan with its points turned back."""
     spokes = (plan.points - plan.centre) @ np.array([1, 1j]) * np.exp(-1j * twist * heights)
     return replace(plan, points=plan.centre + np.column_stack([spokes.real, spokes.imag]))

@@ -30,7 +30,7 @@ def check_walls(stack: Stack) -> None:
     -----
     A swept wall crosses itself only if its outline does, which its first section then shows.
     """
-    for run, low, high in zip(stack.runs, stack.breaks[:-1].tolist(), stack.breaks[1:].tolist(), strict=True):
+    for run, low, high in stack.slabs():
         for wall in run.walls:
             if isinstance(wall, Lofted):
                 check_sections(lofted_skin(wall, low, high))

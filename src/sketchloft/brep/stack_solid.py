@@ -58,8 +58,7 @@ def stack_solid(stack: Stack) -> Solid:
 
 def _size(stack: Stack) -> float:
     """Diagonal of the box around the walls."""
-    ends = zip(stack.runs, stack.breaks[:-1].tolist(), stack.breaks[1:].tolist(), strict=True)
-    points = [wall.boundary(low, high, 64).points for run, low, high in ends for wall in run.walls]
+    points = [wall.boundary(low, high, 64).points for run, low, high in stack.slabs() for wall in run.walls]
     return float(np.linalg.norm(np.ptp(np.concatenate(points), axis=0)))
 
 

@@ -13,6 +13,7 @@ from sketchloft.outline.placed_polygons import Rectangle, RegularPolygon, Rounde
 from sketchloft.outline.polygons import LineArc, Polygon
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import SplineLoop, spline_loop
+from sketchloft.ring import ring_area, ring_centre
 from sketchloft.shapes.spline import fit_spline
 
 __all__ = ["chains", "circle_of", "ellipse_of", "polygons", "spline_of"]
@@ -27,16 +28,15 @@ MOST_CORNERS = 24
 
 def circle_of(ring: Floats) -> Circle:
     """Circle of the contour's area about its centroid."""
-    area, centre = _area_and_centroid(ring)
-    return Circle(centre, float(np.sqrt(area / np.pi)))
+    return Circle(ring_centre(ring), float(np.sqrt(_area(ring) / np.pi)))
 
 
 def ellipse_of(ring: Floats) -> Ellipse:
     """Ellipse of the contour's second moments and area."""
-    area, centre = _area_and_centroid(ring)
+    centre = ring_centre(ring)
     sizes, axes = np.linalg.eigh(_second_moments(ring, centre))
     ratio = float(np.sqrt(abs(sizes[1]) / max(abs(float(sizes[0])), 1e-12)))
-    minor = float(np.sqrt(area / np.pi / ratio))
+    minor = float(np.sqrt(_area(ring) / np.pi / ratio))
     return Ellipse(centre, ratio * minor, minor, float(np.arctan2(axes[1, 1], axes[0, 1])))
 
 
@@ -76,7 +76,7 @@ def polygons(ring: Floats, polygon: Polygon | None, blur: float) -> list[Outline
     found: list[Outline] = []
     rectangle = _rectangle(ring)
     found.append(rectangle)
-    lacking = rectangle.width * rectangle.height - _area_and_centroid(ring)[0]
+    lacking = rectangle.width * rectangle.height - _area(ring)
     radius = float(np.sqrt(max(lacking, 0.0) / (4 - np.pi)))
     radius = float(np.clip(radius, 0.5 * blur, 0.49 * min(rectangle.width, rectangle.height)))
     found.append(
@@ -95,14 +95,9 @@ def polygons(ring: Floats, polygon: Polygon | None, blur: float) -> list[Outline
     return found
 
 
-def _area_and_centroid(ring: Floats) -> tuple[float, Floats]:
-    middle = ring.mean(axis=0)
-    p = ring - middle
-    q = np.roll(p, -1, axis=0)
-    cross = p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]
-    area = float(cross.sum()) / 2
-    safe = area if abs(area) > 1e-15 else 1e-15
-    return max(area, 1e-15), middle + ((p + q) * cross[:, None]).sum(axis=0) / (6 * safe)
+def _area(ring: Floats) -> float:
+    """Area of a ring, positive even where an outline has shrunk to nothing or turned inside out."""
+    return max(ring_area(ring), 1e-15)
 
 
 def _second_moments(ring: Floats, centre: Floats) -> Floats:

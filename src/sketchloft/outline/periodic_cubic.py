@@ -34,7 +34,13 @@ def curve_at(coefficients: Floats, span: Ints, t: Floats) -> tuple[Floats, Float
     return at, c1 + t * (2 * c2 + 3 * first), 2 * c2 + 6 * first
 
 
-def basis_at(span: Ints, t: Floats, count: int) -> tuple[Ints, Floats]:
-    """Indices (n, 4) and values of the basis functions that are not 0."""
-    powers = np.stack([np.ones_like(t), t, t * t, t * t * t], axis=1)
-    return (span[:, None] + np.arange(-3, 1)) % count, powers @ POWERS
+def basis_at(span: Ints, t: Floats, count: int, derivative: int = 0) -> tuple[Ints, Floats]:
+    """Indices (n, 4) and values of the basis functions that are not 0, or their derivatives by u."""
+    one, nil = np.ones_like(t), np.zeros_like(t)
+    powers = [
+        [one, t, t * t, t * t * t],
+        [nil, one, 2 * t, 3 * t * t],
+        [nil, nil, 2 * one, 6 * t],
+    ][derivative]
+    values = count**derivative * np.stack(powers, axis=1) @ POWERS
+    return (span[:, None] + np.arange(-3, 1)) % count, values

@@ -46,6 +46,12 @@ class Polygon(ChainOutline):
         return gradient[:, : 2 * len(self.vertices)]
 
 
+def corner_areas(vertices: Floats) -> Floats:
+    """Twice the area (m,) of the triangle that each vertex (m, 2) makes with its two neighbours."""
+    before, after = np.roll(vertices, 1, axis=0) - vertices, np.roll(vertices, -1, axis=0) - vertices
+    return np.abs(before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0])
+
+
 @dataclass(frozen=True)
 class LineArc(ChainOutline):
     """A closed chain of lines and arcs.

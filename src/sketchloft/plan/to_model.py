@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 
 from sketchloft.cloud import Floats
+from sketchloft.density import Density
 from sketchloft.errors import InputError
-from sketchloft.exact_model import Density, ExactModel, model_of, tied
+from sketchloft.exact_model import ExactModel, model_of, tied
 from sketchloft.joins import joined
 from sketchloft.plan.from_model import followed
 from sketchloft.plan.plan import PlannedBody, PlannedWall, Shared

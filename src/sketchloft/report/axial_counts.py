@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -60,7 +61,7 @@ def _edges(breaks: Floats) -> Floats:
     width = float(np.ptp(breaks)) / BINS
     inner = [
         np.linspace(low, high, max(1, round((high - low) / width)) + 1)[:-1]
-        for low, high in zip(breaks[:-1].tolist(), breaks[1:].tolist(), strict=True)
+        for low, high in pairwise(breaks.tolist())
         if high > low
     ]
     beyond = width * np.arange(1, BEYOND + 1)

@@ -51,9 +51,9 @@ def axial_profile_figure(result: Reconstruction, body: ExactBody, *, unit: Unit)
     figure = new_figure(11.5, 5.2)
     ax = figure.subplots()
     largest = 0.0
-    for run, low, high in zip(stack.runs, stack.breaks[:-1].tolist(), stack.breaks[1:].tolist(), strict=True):
+    for run, low, high in stack.slabs():
         z = low + (high - low) * ALONG
-        up, radius = pose.height(z), scale * _equivalent_radius(_area(run, z))
+        up, radius = pose.height(z), scale * _equivalent_radius(run.area(z))
         ax.fill_between(up, radius, color=wall_colour(run.walls[0]), alpha=0.55, linewidth=0, zorder=1)
         ax.plot(up, radius, color=INK, linewidth=1.5, zorder=4, label="" if largest else "model")
         largest = max(largest, float(radius.max()))
@@ -76,10 +76,6 @@ def axial_profile_figure(result: Reconstruction, body: ExactBody, *, unit: Unit)
     _name_runs(ax, stack.runs, breaks)
     figure.legend(loc="outside lower center", ncols=3, frameon=False, fontsize=8)
     return figure
-
-
-def _area(run: Run, heights: Floats) -> Floats:
-    return np.asarray(sum(run.sign(i) * wall.area(heights) for i, wall in enumerate(run.walls)))
 
 
 def _equivalent_radius(areas: Floats) -> Floats:

@@ -40,7 +40,7 @@ def distance_outside(points: Floats, stack: Stack) -> Floats:
 def distance_from_walls(points: Floats, stack: Stack) -> Floats:
     """Signed distance (n,) of points (n, 3) from the walls of the run they are in; NaN beyond the ends."""
     found = np.full(len(points), np.nan)
-    for run, low, high in zip(stack.runs, stack.breaks[:-1].tolist(), stack.breaks[1:].tolist(), strict=True):
+    for run, low, high in stack.slabs():
         rows = np.flatnonzero((points[:, 2] >= low) & (points[:, 2] < high))
         if len(rows):
             found[rows] = _from_section(points[rows], run)
@@ -49,10 +49,7 @@ def distance_from_walls(points: Floats, stack: Stack) -> Floats:
 
 def _distance(points: Floats, stack: Stack) -> Floats:
     z, breaks = points[:, 2], stack.breaks
-    within = [
-        _from_section(_clamped(points, low, high), run)
-        for run, low, high in zip(stack.runs, breaks[:-1].tolist(), breaks[1:].tolist(), strict=True)
-    ]
+    within = [_from_section(_clamped(points, low, high), run) for run, low, high in stack.slabs()]
     outside = np.full(len(points), np.inf)
     depth = np.zeros(len(points))
     for j, section in enumerate(within):

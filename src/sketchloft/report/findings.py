@@ -6,7 +6,7 @@ import numpy as np
 
 from sketchloft.cloud import Unit
 from sketchloft.exact import ExactBody
-from sketchloft.likelihood import mass_nodes
+from sketchloft.expected import mass_nodes, wall_nodes
 from sketchloft.report.precision import Precision
 from sketchloft.report.words import counted, number
 
@@ -44,7 +44,7 @@ def stray_words(body: ExactBody) -> str:
 def density_words(body: ExactBody, unit: Unit) -> str:
     """How densely the inside was drawn, and how evenly."""
     density = body.model.density
-    at, volumes = mass_nodes(body.model)
+    at, volumes = mass_nodes(body.model, wall_nodes(body.model))
     mean = float(density.at(at) @ volumes) / float(volumes.sum()) / body.scale**3
     typical = f"{number(mean, 3)} points per {unit}³"
     if len(density.coefficients) == 1:

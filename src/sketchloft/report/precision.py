@@ -65,7 +65,7 @@ def precision(body: ExactBody) -> Precision:
     A. P. Korostelev, A. B. Tsybakov, Minimax Theory of Image Reconstruction, Springer, 1993.
     """
     model = body.model
-    together = dispersion(body.points, level_set(body.points))
+    together = dispersion(level_set(body.points))
     information, points = np.zeros((model.size, model.size)), 0.0
     for j, run in enumerate(model.stack.runs):
         low, high = model.stack.breaks[[j, j + 1]].tolist()
@@ -102,7 +102,7 @@ def _ledge(model: ExactModel, k: int) -> float:
     """Points per height that a movement of a break wins or loses."""
     at = np.array([model.stack.breaks[k]])
     runs: tuple[Run, ...] = model.stack.runs[max(k - 1, 0) : k + 1]
-    areas = [sum(run.sign(i) * float(w.area(at)[0]) for i, w in enumerate(run.walls)) for run in runs]
+    areas = [float(run.area(at)[0]) for run in runs]
     middle = np.append(_middle(runs[0], float(at[0])), at)
     change = abs(areas[1] - areas[0]) if 0 < k < len(model.joins) - 1 else areas[0]
     return float(change * model.density.at(middle[None])[0])

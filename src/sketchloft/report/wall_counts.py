@@ -57,10 +57,8 @@ def expected_counts(model: ExactModel, edges: Floats, share: float) -> tuple[Flo
 
 def _box(model: ExactModel) -> tuple[Floats, Floats]:
     """Lower and upper corner of the box around the walls."""
-    ends = zip(
-        model.stack.runs, model.stack.breaks[:-1].tolist(), model.stack.breaks[1:].tolist(), strict=True
-    )
-    walls = [wall.boundary(low, high, 400).points for run, low, high in ends for wall in run.walls]
+    slabs = model.stack.slabs()
+    walls = [wall.boundary(low, high, 400).points for run, low, high in slabs for wall in run.walls]
     points = np.concatenate(walls)
     low, high = points.min(axis=0), points.max(axis=0)
     low[2], high[2] = model.stack.breaks[[0, -1]]

@@ -7,8 +7,9 @@ from typing import ClassVar, Self
 
 import numpy as np
 
-from sketchloft.cloud import Floats, Ints
-from sketchloft.surface import basis_matrix
+from sketchloft.cloud import Floats
+from sketchloft.outline.periodic_cubic import basis_at, locate
+from sketchloft.surface import basis_matrix, local_basis
 from sketchloft.wall.foot import WallBoundary, WallFoot
 
 __all__ = ["Lofted", "lofted"]
@@ -52,7 +53,7 @@ class Lofted:
     def ring(self, heights: Floats, u: Floats, u_derivative: int = 0, z_derivative: int = 0) -> Floats:
         """Points (m, k, 2) at heights (m,) and parameters u (k,), or their derivatives."""
         along = basis_matrix(self.knots, self.degree, heights, z_derivative)
-        around = _periodic(u, self.poles.shape[1], u_derivative)
+        around = _around(u, self.poles.shape[1], u_derivative)
         return np.einsum("mi,kj,ijd->mkd", along, around, self.poles)
 
     def area(self, heights: Floats) -> Floats:
@@ -70,20 +71,20 @@ class Lofted:
         count = self.poles.shape[1]
         rows = np.einsum("ni,ijd->njd", along, self.poles)
         for _ in range(NEWTON):
-            at, d1, d2 = (_ring_at(rows, u, count, k) for k in range(3))
+            at, d1, d2 = (_ring_at(rows, u, k) for k in range(3))
             gap = at - points[:, :2]
             first = np.einsum("ij,ij->i", gap, d1)
             second = np.einsum("ij,ij->i", d1, d1)
             full = second + np.einsum("ij,ij->i", gap, d2)
             u = u - np.clip(first / np.where(full > 0.2 * second, full, second), -0.5 / count, 0.5 / count)
-        at, d1, d2 = (_ring_at(rows, u, count, k) for k in range(3))
+        at, d1, d2 = (_ring_at(rows, u, k) for k in range(3))
         speed = np.maximum(np.hypot(d1[:, 0], d1[:, 1]), 1e-12)
         across = np.column_stack([d1[:, 1], -d1[:, 0]]) / speed[:, None]
         gap = points[:, :2] - at
         flat = np.hypot(gap[:, 0], gap[:, 1])
         side = np.sign(np.einsum("ij,ij->i", gap, across))
         steep = np.einsum("ni,ijd->njd", basis_matrix(self.knots, self.degree, z, 1), self.poles)
-        slope = -np.einsum("ij,ij->i", across, _ring_at(steep, u, count, 0))
+        slope = -np.einsum("ij,ij->i", across, _ring_at(steep, u, 0))
         c = 1 / np.hypot(1.0, slope)
         gradient = self._gradient(z, u, across) * -c[:, None]
         bend = (d1[:, 0] * d2[:, 1] - d1[:, 1] * d2[:, 0]) / speed**3
@@ -93,10 +94,9 @@ class Lofted:
     def _gradient(self, z: Floats, u: Floats, across: Floats) -> Floats:
         """Movement (n, p) of the wall across itself by each pole's displacement; 16 poles matter."""
         rows, count = self.poles.shape[:2]
-        span = np.clip(np.searchsorted(self.knots, z, side="right") - 4, 0, rows - 4)
-        i = span[:, None] + np.arange(4)
-        along = np.take_along_axis(basis_matrix(self.knots, self.degree, z), i, axis=1)
-        j, around = _local(u, count, 0)
+        first, along = local_basis(self.knots, self.degree, z)
+        i = first[:, None] + np.arange(self.degree + 1)
+        j, around = basis_at(*locate(u, count), count)
         lean = np.einsum("nijd,nd->nij", self.normals[i[:, :, None], j[:, None, :]], across)
         place = (i[:, :, None] * count + j[:, None, :]).reshape(len(z), -1)
         gradient = np.zeros((len(z), rows * count))
@@ -145,30 +145,17 @@ def lofted(poles: Floats, knots: Floats) -> Lofted:
     return Lofted(poles, knots, poles, normals)
 
 
-def _local(u: Floats, count: int, derivative: int) -> tuple[Ints, Floats]:
-    """Indices (n, 4) and values of the uniform periodic cubic basis functions that are not 0."""
-    x = np.mod(u, 1.0) * count
-    first = np.minimum(x.astype(np.intp), count - 1)
-    t = x - first
-    if derivative == 0:
-        values = [(1 - t) ** 3, 3 * t**3 - 6 * t**2 + 4, -3 * t**3 + 3 * t**2 + 3 * t + 1, t**3]
-    elif derivative == 1:
-        values = [-3 * (1 - t) ** 2, 9 * t**2 - 12 * t, -9 * t**2 + 6 * t + 3, 3 * t**2]
-    else:
-        values = [6 * (1 - t), 18 * t - 12, -18 * t + 6, 6 * t]
-    scale = count**derivative / 6
-    columns = (first[:, None] + np.arange(-3, 1)) % count
-    return columns, scale * np.column_stack(values)
-
-
-def _periodic(u: Floats, count: int, derivative: int) -> Floats:
-    columns, values = _local(u, count, derivative)
+def _around(u: Floats, count: int, derivative: int) -> Floats:
+    """Values (k, count) of all basis functions around at parameters u (k,), or their derivatives."""
+    columns, values = basis_at(*locate(u, count), count, derivative)
     matrix = np.zeros((len(u), count))
     np.add.at(matrix, (np.arange(len(u))[:, None], columns), values)
     return matrix
 
 
-def _ring_at(rows: Floats, u: Floats, count: int, derivative: int) -> Floats:
-    columns, values = _local(u, count, derivative)
+def _ring_at(rows: Floats, u: Floats, derivative: int) -> Floats:
+    """Points (n, 2), each on the ring of its own poles (n, count, 2), or derivatives by u."""
+    count = rows.shape[1]
+    columns, values = basis_at(*locate(u, count), count, derivative)
     picked = np.take_along_axis(rows, columns[..., None], axis=1)
     return np.einsum("nk,nkd->nd", values, picked)

@@ -1,0 +1,74 @@
+"""Changes: what a stack could be instead, one run at a time."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from sketchloft.cloud import Floats
+from sketchloft.exact_model import ExactModel
+from sketchloft.joins import sole_profile
+from sketchloft.simpler_walls import profiles_like, walls_like
+from sketchloft.stack import Run
+from sketchloft.surgery import with_run, with_split, without_run
+from sketchloft.trial import Change
+from sketchloft.wall.profile import Profile, SplineProfile
+from sketchloft.wall.revolved import radius_at
+
+__all__ = ["merges", "splits", "swaps"]
+
+SPLIT_SAMPLES = 41
+"""Heights of a profile at which it may be split."""
+SHORTEST = 5
+"""Samples that each part has at least."""
+
+
+def merges(model: ExactModel) -> Iterator[Change]:
+    """A run left to a neighbour, or at an end to nobody, the shortest first."""
+    runs = model.stack.runs
+    count = len(runs)
+    if count == 1:
+        return
+    order = np.argsort(np.diff(model.stack.breaks))
+    for j in (int(k) for k in order):
+        for heir in (j - 1, j + 1):
+            if 0 <= heir < count:
+                first = min(j, heir)
+                yield Change(without_run(model, j, heir), range(first, first + 1))
+        if j in (0, count - 1):
+            place = 0 if j == 0 else count - 2
+            yield Change(without_run(model, j, None), range(place, place + 1))
+
+
+def splits(model: ExactModel) -> Iterator[Change]:
+    """Two runs of lines or arcs for a free profile, cut where they fit it best."""
+    for j, (run, low, high) in enumerate(model.stack.slabs()):
+        wall = sole_profile(run)
+        if wall is None or not isinstance(wall.profile, SplineProfile):
+            continue
+        z = np.linspace(low, high, SPLIT_SAMPLES)
+        r = radius_at(wall.profile, z)[0]
+        options = []
+        for k in range(SHORTEST, SPLIT_SAMPLES - SHORTEST):
+            below, above = _closest(z[: k + 1], r[: k + 1]), _closest(z[k:], r[k:])
+            options.append((below[0] + above[0], k, below[1], above[1]))
+        _, k, first, second = min(options, key=lambda option: option[0])
+        walls = [replace(wall, profile=profile) for profile in (first, second)]
+        yield Change(with_split(model, j, float(z[k]), *walls), range(j, j + 2))
+
+
+def _closest(z: Floats, r: Floats) -> tuple[float, Profile]:
+    """Squares left by the line or arc nearest to a profile, and that."""
+    fits = [(float(((radius_at(p, z)[0] - r) ** 2).sum()), p) for p in profiles_like(z, r)]
+    return min(fits, key=lambda fit: fit[0])
+
+
+def swaps(model: ExactModel) -> Iterator[Change]:
+    """A wall of another kind in the place of each."""
+    for j, (run, low, high) in enumerate(model.stack.slabs()):
+        for i, wall in enumerate(run.walls):
+            for other in walls_like(wall, low, high):
+                walls = (*run.walls[:i], other, *run.walls[i + 1 :])
+                yield Change(with_run(model, j, Run(walls, run.holes)), range(j, j + 1))

@@ -1,0 +1,67 @@
+"""Soundness: whether a model's walls can bound a solid at all, before points judge it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from sketchloft.cloud import Floats
+from sketchloft.exact_model import ExactModel
+from sketchloft.outline.circle import Circle
+from sketchloft.outline.ellipse import Ellipse
+from sketchloft.stack import Wall
+from sketchloft.wall.lofted import Lofted
+from sketchloft.wall.profile import ArcProfile, SplineProfile
+from sketchloft.wall.revolved import Revolved
+from sketchloft.wall.swept import Swept
+
+__all__ = ["covers", "sound"]
+
+LEVELS = 17
+"""Heights of a run at which its sections are looked at."""
+
+
+def sound(model: ExactModel) -> bool:
+    """Whether the breaks rise, and every wall encloses something and nowhere crosses itself."""
+    breaks = model.stack.breaks
+    if not np.isfinite(model.vector).all() or not (np.diff(breaks) > 0).all():
+        return False
+    for j, run in enumerate(model.stack.runs):
+        if any(not covers(wall, breaks[j], breaks[j + 1]) for wall in run.walls):
+            return False
+        ends = np.linspace(breaks[j], breaks[j + 1], LEVELS)
+        at = ends[LEVELS // 3 : -(LEVELS // 3)]  # a sphere may end before its break does
+        if any((wall.area(at) <= 0).any() or not _simple(wall, ends[:: LEVELS // 8]) for wall in run.walls):
+            return False
+    return True
+
+
+def _simple(wall: Wall, heights: Floats) -> bool:
+    """Whether the sections at heights (m,) nowhere cross themselves."""
+    from shapely import is_valid, linearrings, polygons  # noqa: PLC0415
+
+    if isinstance(wall, Lofted):
+        count = 4 * wall.poles.shape[1]
+        rings = wall.ring(heights, np.arange(count) / count)
+    elif isinstance(wall, Swept) and not isinstance(wall.outline, (Circle, Ellipse)):
+        rings = wall.outline.boundary(64).points[None]
+    else:
+        return True
+    return bool(is_valid(polygons(linearrings(rings))).all())
+
+
+def covers(wall: Wall, low: float, high: float) -> bool:
+    """Whether a spline's knots, or a torus, reach over a stretch of heights."""
+    ends = (-np.inf, np.inf)
+    if isinstance(wall, Lofted):
+        ends = wall.knots[0], wall.knots[-1]
+    if isinstance(wall, Revolved) and isinstance(wall.profile, SplineProfile):
+        ends = wall.profile.knots[0], wall.profile.knots[-1]
+        if not (wall.area(np.linspace(low, high, LEVELS)) > 0).all():
+            return False
+    if (
+        isinstance(wall, Revolved)
+        and isinstance(wall.profile, ArcProfile)
+        and wall.profile.offset is not None
+    ):
+        ends = wall.profile.height - wall.profile.radius, wall.profile.height + wall.profile.radius
+    return bool(ends[0] <= low and high <= ends[1])

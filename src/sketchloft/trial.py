@@ -1,0 +1,107 @@
+"""Trial: whether a change of the stack explains the points better than it costs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from sketchloft.cloud import Floats
+from sketchloft.exact_model import ExactModel
+from sketchloft.fit import climb, fit_density
+from sketchloft.joins import natural_joins
+from sketchloft.likelihood import beside_walls, value_of
+from sketchloft.schwarz import price
+
+__all__ = ["MOST_NOISE", "Change", "tried", "worth"]
+
+BESIDE = 6.0
+"""Noise deviations from the walls within which points decide."""
+STEPS = (2, 4)
+HOPELESS = 40.0
+"""A change that is still so much worse after the first few steps is given up."""
+PATIENCE = 400.0
+"""`HOPELESS` for a free wall, which starts from contours and has far to go."""
+SHARP = 0.006
+"""Noise that a free wall starts with at most."""
+MOST_NOISE = 0.012
+"""Largest noise that is believed, as a share of the size; more is a wall in the wrong place."""
+SHORT = 8.0
+"""Runs shorter than so many noise deviations are taken for noise unless they gain a lot."""
+SHORTNESS = 12.0
+"""What a run of no length at all must gain."""
+
+
+@dataclass(frozen=True)
+class Change:
+    """A changed model, not fitted yet.
+
+    Parameters
+    ----------
+    model : ExactModel
+    runs : range
+        The runs of it that are new.
+    handicap : float
+        What it must gain beside its price.
+    """
+
+    model: ExactModel
+    runs: range
+    handicap: float = 0.0
+
+
+def tried(
+    points: Floats, model: ExactModel, change: Change, together: float, *, free: bool = False
+) -> ExactModel | None:
+    """Fit a changed model around its change; None if it does not pay.
+
+    Parameters
+    ----------
+    points : (n, 3) float array
+    model : ExactModel
+        What is changed.
+    change : Change
+    together : float
+        How many of the points go together.
+    free : bool
+        Whether the change is a free wall. A bad model is a noisy one and a better one need not be, so that
+        then both are judged with the noise that suits them; and a free wall has farther to go.
+    """
+    candidate, runs = change.model, change.runs
+    if free:
+        candidate = replace(candidate, sigma=min(candidate.sigma, SHARP))
+    near = _around(points, model, candidate, runs)
+    if not len(near):
+        return None
+    if free:
+        model, _, _ = climb(near, model, STEPS[1], noise=True, most=MOST_NOISE)
+    count = len(points)
+    least = worth(near, model, together, count) + change.handicap
+    wide = range(max(runs.start - 1, 0), min(runs.stop + 1, len(candidate.stack.runs)))
+    for steps in STEPS:
+        candidate, _, _ = climb(near, candidate, steps, runs=wide)
+        if worth(near, candidate, together, count) < least - (PATIENCE if free else HOPELESS):
+            return None
+        if free:
+            candidate = fit_density(points, candidate, 1)
+            candidate, _, _ = climb(near, candidate, steps, runs=wide, noise=True, most=MOST_NOISE)
+    candidate = natural_joins(candidate)
+    return candidate if worth(near, candidate, together, count) > least else None
+
+
+def worth(points: Floats, model: ExactModel, together: float, count: int) -> float:
+    """Log likelihood of some of a cloud's points (n, 3), less the price of the model for all of them."""
+    lengths = np.diff(model.stack.breaks)
+    short = np.maximum(1 - lengths / (SHORT * model.sigma), 0.0)
+    runs = len(lengths) * float(np.log(count / together)) + SHORTNESS * float(short.sum())
+    return value_of(points, model) / together - (price(model.parameters, count, together) + runs)
+
+
+def _around(points: Floats, model: ExactModel, candidate: ExactModel, runs: range) -> Floats:
+    """Points beside the walls of either model, at the heights of the new runs and their neighbours."""
+    breaks = candidate.stack.breaks
+    low = -np.inf if runs.start <= 1 else breaks[runs.start - 1]
+    high = np.inf if runs.stop >= len(breaks) - 2 else breaks[runs.stop + 1]
+    near = points[(points[:, 2] > low) & (points[:, 2] < high)]
+    width = BESIDE * model.sigma
+    return near[beside_walls(near, model, width) | beside_walls(near, candidate, width)]

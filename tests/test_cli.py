@@ -189,7 +189,7 @@ def test_a_cloud_far_from_the_origin(here: Path, capsys: pytest.CaptureFixture[s
         ([*PAPER, "--per-slice", "2900"], 5, "slice planes: found 2900 points per slice"),
         (["--probe-radius", "0"], 2, "probe radius"),
         ([*PAPER, "--probe-radius", "0.001"], 5, "edge points, slice 0: a probe of radius 0.001 leaves"),
-        ([*PAPER, "--shapes", "round"], 2, "shapes: found 'round'"),
+        (["--shapes", "round"], 2, "shapes: found 'round'"),
         ([*PAPER, "--shapes", "99:circle"], 2, "shapes: found slices 99"),
         (["--bodies", "12"], 2, "bodies: found '12'"),
         (["--unit", "ft"], 2, "ft"),

@@ -24,7 +24,7 @@ from sketchloft.plan.plan import Plan
 from sketchloft.plan.read import read_plan
 from sketchloft.plan.write import write_plan
 from sketchloft.planned import plan_of
-from sketchloft.shapes.choice import ShapesParams
+from sketchloft.shapes.choice import ShapesParams, parse_shapes
 from sketchloft.slice_planes import CentralAxis, SlicePlanesParams, parse_per_slice
 from sketchloft.summary import summary, summary_lines
 from sketchloft.work_points import Working, WorkPointsParams
@@ -91,7 +91,7 @@ def build(
         SlicePlanesParams(parse_per_slice(per_slice), central_axis),
         WorkPointsParams(working),
         EdgePointsParams(parse_probe_radius(probe_radius)),
-        ShapesParams(shapes),
+        ShapesParams(parse_shapes(shapes)),
         LoftParams(loft),
         _plan(plan, save_plan, method, axis, unit),
     )

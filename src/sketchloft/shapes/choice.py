@@ -7,7 +7,7 @@ from typing import Literal, get_args
 
 from sketchloft.errors import UsageError
 
-__all__ = ["Choice", "ShapesParams", "choices"]
+__all__ = ["Choice", "ShapesParams", "choices", "parse_shapes"]
 
 Choice = Literal["auto", "off", "circle", "ellipse", "rectangle"]
 CHOICES: tuple[Choice, ...] = get_args(Choice)
@@ -58,6 +58,19 @@ def choices(asked: str, count: int) -> tuple[Choice, ...]:
             first, last = _range(place, count)
             chosen[first : last + 1] = [_known(word)] * (last + 1 - first)
     return tuple(chosen)
+
+
+def parse_shapes(text: str) -> str:
+    """Check the words of `ShapesParams.shapes`; which slices exist is not known yet.
+
+    Raises
+    ------
+    UsageError
+        If a word is unknown.
+    """
+    for part in text.split(","):
+        _known(part.strip().rpartition(":")[2])
+    return text
 
 
 def _known(word: str) -> Choice:

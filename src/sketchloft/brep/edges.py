@@ -5,19 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import pairwise
 
-from OCP.BRep import BRep_Builder
-from OCP.Geom import Geom_Curve
-from OCP.TopAbs import TopAbs_Orientation
 from OCP.TopoDS import TopoDS_Edge, TopoDS_Vertex
 
-from sketchloft.brep.kernel import CONFUSION, bspline_curve, point
+from sketchloft.brep.kernel import bspline_curve
 from sketchloft.brep.patches import PatchGrid, part
-from sketchloft.cloud import Floats
+from sketchloft.brep.shell_parts import CurvePart, edge, vertex
 from sketchloft.surface import SkinSurface
 
 __all__ = ["LoftEdges", "loft_edges"]
-
-_BUILD = BRep_Builder()
 
 
 @dataclass(frozen=True)
@@ -42,7 +37,7 @@ def loft_edges(grid: PatchGrid) -> LoftEdges:
     corners, around, along = [], [], []
     for i, row in enumerate(grid.rows):
         columns = sorted(set().union(*grid.columns[max(i - 1, 0) : i + 1]))
-        vertices = {column: _vertex(grid.skin.poles[row, column]) for column in columns[:-1]}
+        vertices = {column: vertex(grid.skin.poles[row, column]) for column in columns[:-1]}
         corners.append(vertices | {columns[-1]: vertices[columns[0]]})
         pairs = pairwise(columns)
         around.append({a: _around(grid.skin, row, (a, b), corners[i]) for a, b in pairs})
@@ -59,7 +54,8 @@ def _around(
     piece = part(skin, (0, len(skin.poles) - 1), columns)
     weights = None if piece.weights is None else piece.weights[row]
     curve = bspline_curve(piece.poles[row], weights, piece.u_knots, piece.u_degree)
-    return _edge(curve, piece.u_knots, corner[columns[0]], corner[columns[1]])
+    ends = CurvePart(curve, float(piece.u_knots[0]), float(piece.u_knots[-1]))
+    return edge(ends, corner[columns[0]], corner[columns[1]])
 
 
 def _along(
@@ -68,19 +64,5 @@ def _along(
     piece = part(skin, rows, (0, skin.poles.shape[1] - 1))
     weights = None if piece.weights is None else piece.weights[:, column]
     curve = bspline_curve(piece.poles[:, column], weights, piece.v_knots, piece.v_degree)
-    return _edge(curve, piece.v_knots, corners[0][column], corners[1][column])
-
-
-def _vertex(xyz: Floats) -> TopoDS_Vertex:
-    vertex = TopoDS_Vertex()
-    _BUILD.MakeVertex(vertex, point(xyz), CONFUSION)
-    return vertex
-
-
-def _edge(curve: Geom_Curve, knots: Floats, start: TopoDS_Vertex, end: TopoDS_Vertex) -> TopoDS_Edge:
-    edge = TopoDS_Edge()
-    _BUILD.MakeEdge(edge, curve, CONFUSION)
-    _BUILD.Add(edge, start.Oriented(TopAbs_Orientation.TopAbs_FORWARD))
-    _BUILD.Add(edge, end.Oriented(TopAbs_Orientation.TopAbs_REVERSED))
-    _BUILD.Range(edge, float(knots[0]), float(knots[-1]))
-    return edge
+    ends = CurvePart(curve, float(piece.v_knots[0]), float(piece.v_knots[-1]))
+    return edge(ends, corners[0][column], corners[1][column])

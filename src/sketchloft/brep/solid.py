@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 from OCP.BRep import BRep_Builder
 from OCP.Geom import Geom_Plane
 from OCP.Geom2d import Geom2d_Line
 from OCP.gp import gp_Dir2d, gp_Pnt2d
-from OCP.TopLoc import TopLoc_Location
-from OCP.TopoDS import TopoDS_Edge, TopoDS_Face, TopoDS_Shape, TopoDS_Shell, TopoDS_Solid, TopoDS_Wire
+from OCP.TopoDS import TopoDS_Face, TopoDS_Shape, TopoDS_Solid
 
 from sketchloft.brep.edges import LoftEdges, loft_edges
 from sketchloft.brep.kernel import CONFUSION, bspline_surface, direction, point
 from sketchloft.brep.patches import PatchGrid, cut, part
+from sketchloft.brep.shell_parts import planar_face, solid_of, turned_around, wire
 from sketchloft.cloud import Floats
 from sketchloft.errors import ModelError
 from sketchloft.surface import SkinSurface, evaluate
@@ -59,19 +61,14 @@ def loft_solid(surface: SkinSurface) -> Solid:
     """
     grid = cut(surface if _winds_left(surface) else _mirrored(surface))
     edges = loft_edges(grid)
-    shell = TopoDS_Shell()
-    _BUILD.MakeShell(shell)
-    for band, columns in enumerate(grid.columns):
-        for i in range(len(columns) - 1):
-            _BUILD.Add(shell, _side(grid, edges, band, columns[i : i + 2]))
+    sides = [
+        _side(grid, edges, band, list(ends))
+        for band, columns in enumerate(grid.columns)
+        for ends in pairwise(columns)
+    ]
     bottom, top = list(edges.around[0].values()), list(edges.around[-1].values())
-    _BUILD.Add(shell, _cap(grid.skin.poles[0], [edge.Reversed() for edge in reversed(bottom)], "first"))
-    _BUILD.Add(shell, _cap(grid.skin.poles[-1], top, "last"))
-    shell.Closed(True)
-    solid = TopoDS_Solid()
-    _BUILD.MakeSolid(solid)
-    _BUILD.Add(solid, shell)
-    return Solid(solid)
+    first, last = grid.skin.poles[[0, -1]]
+    return Solid(solid_of([*sides, _cap(first, turned_around(bottom), "first"), _cap(last, top, "last")]))
 
 
 def _winds_left(surface: SkinSurface) -> bool:
@@ -113,12 +110,11 @@ def _side(grid: PatchGrid, edges: LoftEdges, band: int, columns: list[int]) -> T
     else:
         _BUILD.UpdateEdge(left, at_left, face, CONFUSION)
         _BUILD.UpdateEdge(right, at_right, face, CONFUSION)
-    back = [edge.Reversed() for edge in reversed(top)]
-    _BUILD.Add(face, _wire([*bottom, right, *back, left.Reversed()]))
+    _BUILD.Add(face, wire([*bottom, right, *turned_around(top), left.Reversed()]))
     return face
 
 
-def _cap(section: Floats, edges: list[TopoDS_Edge], which: str) -> TopoDS_Face:
+def _cap(section: Floats, edges: Sequence[TopoDS_Shape], which: str) -> TopoDS_Face:
     """Make the planar face that the edges bound, counter-clockwise about its normal."""
     centre = section[:-1].mean(axis=0)
     spokes = section - centre
@@ -136,16 +132,4 @@ def _cap(section: Floats, edges: list[TopoDS_Edge], which: str) -> TopoDS_Face:
             f"the {which} section leaves its plane by {off_plane:.2g} of a size of {size:.2g}, so a planar "
             "cap cannot close it; project it onto its plane first"
         )
-    face = TopoDS_Face()
-    _BUILD.MakeFace(face, Geom_Plane(point(centre), direction(normal)), TopLoc_Location(), CONFUSION)
-    _BUILD.Add(face, _wire(edges))
-    return face
-
-
-def _wire(edges: list[TopoDS_Shape]) -> TopoDS_Wire:
-    wire = TopoDS_Wire()
-    _BUILD.MakeWire(wire)
-    for edge in edges:
-        _BUILD.Add(wire, edge)
-    wire.Closed(True)
-    return wire
+    return planar_face(Geom_Plane(point(centre), direction(normal)), [edges])

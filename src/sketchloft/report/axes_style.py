@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 
 from sketchloft.report.palette import GRID, INK, MUTED
 
-__all__ = ["heading", "legend_below", "style_axes"]
+__all__ = ["heading", "legend_below", "note", "style_axes"]
 
 LABELS = 4.5
 """Room that tick labels and the axis label take below a panel, in sizes of the legend's letters."""
@@ -44,6 +44,20 @@ def heading(ax: Axes, title: str, below: str) -> None:
         fontsize=8,
         color=MUTED,
         annotation_clip=False,
+    )
+
+
+def note(ax: Axes, text: str) -> None:
+    """Small words at the bottom of a panel, on a pale ground."""
+    ax.annotate(
+        text,
+        (0.5, 0.02),
+        xycoords="axes fraction",
+        ha="center",
+        fontsize=7,
+        color=INK,
+        bbox={"facecolor": "white", "alpha": 0.8, "edgecolor": "none", "pad": 1.5},
+        zorder=6,
     )
 
 

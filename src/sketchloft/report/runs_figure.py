@@ -12,7 +12,7 @@ from matplotlib.lines import Line2D
 from sketchloft.cloud import Floats, Unit
 from sketchloft.exact import ExactBody
 from sketchloft.pipeline import Reconstruction
-from sketchloft.report.axes_style import heading, style_axes
+from sketchloft.report.axes_style import heading, note, style_axes
 from sketchloft.report.contact_sheet import COLUMNS, contact_sheet, fit_panel
 from sketchloft.report.dimensions import dimensions
 from sketchloft.report.nearby import nearby
@@ -58,7 +58,7 @@ def runs_figure(result: Reconstruction, body: ExactBody, errors: Precision, *, u
     figure, panels = contact_sheet(-(-len(chosen) // COLUMNS))
     for ax, (run, height) in zip(panels, chosen, strict=False):
         _draw_section(ax, body, run, height, pose)
-        _write(ax, _sizes(body, errors, run, pose, unit))
+        note(ax, _sizes(body, errors, run, pose, unit))
     for ax in panels[len(chosen) :]:
         ax.set_axis_off()
     figure.supxlabel(pose.labels(unit)[0], fontsize=9, color=INK)
@@ -99,20 +99,6 @@ def _draw_section(ax: Axes, body: ExactBody, index: int, height: float, pose: Po
     title = textwrap.shorten(f"run {index + 1}: {run_words(run)}", TITLE, placeholder=" …")
     heading(
         ax, title, f"at {at} ± {number(half * body.scale, 2)}, {counted(_free(body, index), 'parameter')}"
-    )
-
-
-def _write(ax: Axes, sizes: str) -> None:
-    """Dimensions of a run's walls, at the bottom of its panel."""
-    ax.annotate(
-        sizes,
-        (0.5, 0.02),
-        xycoords="axes fraction",
-        ha="center",
-        fontsize=7,
-        color=INK,
-        bbox={"facecolor": "white", "alpha": 0.8, "edgecolor": "none", "pad": 1.5},
-        zorder=6,
     )
 
 

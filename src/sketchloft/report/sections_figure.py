@@ -10,7 +10,7 @@ from matplotlib.patches import Circle as Disc
 
 from sketchloft.cloud import Floats, Unit
 from sketchloft.pipeline import BodyModel, Reconstruction
-from sketchloft.report.axes_style import heading, style_axes
+from sketchloft.report.axes_style import heading, note, style_axes
 from sketchloft.report.contact_sheet import COLUMNS, contact_sheet, fit_panel
 from sketchloft.report.palette import CLOUD, EDGE, INK, PROBE
 from sketchloft.report.pose import Pose, pose_of
@@ -75,16 +75,7 @@ def _draw_slice(ax: Axes, body: BodyModel, index: int, pose: Pose, unit: Unit) -
     height = pose.height_words(edge.height, body)
     probe = probe_words(edge.probe_radius, unit)
     heading(ax, f"slice {index}: {shape.kind}", f"at {height} {unit}, probe {probe}")
-    ax.annotate(
-        shape_size(shape, unit),
-        (0.5, 0.02),
-        xycoords="axes fraction",
-        ha="center",
-        fontsize=7,
-        color=INK,
-        bbox={"facecolor": "white", "alpha": 0.8, "edgecolor": "none", "pad": 1.5},
-        zorder=6,
-    )
+    note(ax, shape_size(shape, unit))
 
 
 def _probe(ring: Floats, radius: float) -> Floats:

@@ -14,7 +14,7 @@ from pathlib import Path
 
 from sketchloft import NamedSolid, Reconstruction, reconstruct, write_cloud, write_model
 from sketchloft.brep.primitives import fuse
-from sketchloft.exact import ExactBody
+from sketchloft.exact.body import ExactBody
 from sketchloft.report.axial_profile_figure import axial_profile_figure
 from sketchloft.report.cuts_figure import cuts_figure
 from sketchloft.report.error_map import draw_error_map

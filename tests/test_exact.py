@@ -16,7 +16,7 @@ from sketchloft.brep.step_file import write as step_bytes
 from sketchloft.brep.tessellate import tessellate
 from sketchloft.cloud import Floats
 from sketchloft.direction import Axis, DirectionParams
-from sketchloft.exact import ExactBody
+from sketchloft.exact.body import ExactBody
 from sketchloft.sample import GOALS, FillParams, sample_goal
 from sketchloft.stack_volume import stack_volume
 

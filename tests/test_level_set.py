@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from sketchloft.cloud import Floats
-from sketchloft.dispersion import dispersion
-from sketchloft.exact import SEARCH_POINTS
-from sketchloft.level_set import level_set, on_grid
+from sketchloft.exact.body import SEARCH_POINTS
+from sketchloft.exact.dispersion import dispersion
+from sketchloft.exact.level_set import level_set, on_grid
+from sketchloft.exact.section_contours import contours
 from sketchloft.ring import ring_area
 from sketchloft.sample import GOALS, Fill, FillParams, sample_goal
-from sketchloft.section_contours import contours
 
 BALL = 4 / 3 * np.pi
 

@@ -9,17 +9,17 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from sketchloft.cloud import Floats
-from sketchloft.density import Density
-from sketchloft.exact_model import ExactModel, model_of
-from sketchloft.expected import mass_nodes, wall_nodes
-from sketchloft.likelihood import beside_walls, evaluate, share_of, value_of
+from sketchloft.exact.density import Density
+from sketchloft.exact.expected import mass_nodes, wall_nodes
+from sketchloft.exact.likelihood import beside_walls, evaluate, share_of, value_of
+from sketchloft.exact.model import ExactModel, model_of
+from sketchloft.exact.soundness import sound
 from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.outline import Outline
 from sketchloft.outline.placed_polygons import Rectangle, RegularPolygon, RoundedRectangle
 from sketchloft.outline.polygons import LineArc, Polygon
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import spline_loop
-from sketchloft.soundness import sound
 from sketchloft.stack import Run, Stack, Wall
 from sketchloft.stack_volume import stack_volume
 from sketchloft.wall.lofted import lofted

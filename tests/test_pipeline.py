@@ -20,7 +20,7 @@ from sketchloft.brep.tessellate import tessellate
 from sketchloft.direction import DirectionParams
 from sketchloft.edge_points import EdgePointsParams
 from sketchloft.errors import CloudError, StageError
-from sketchloft.exact import ExactBody, ExactParams
+from sketchloft.exact.body import ExactBody, ExactParams
 from sketchloft.loft import LoftParams
 from sketchloft.pipeline import EXACT_STAGES, STAGES, BodyModel, Method
 from sketchloft.remarks import remarks

@@ -15,11 +15,12 @@ from hypothesis import strategies as st
 
 from sketchloft.cli import _exit_code
 from sketchloft.cloud import PointCloud
-from sketchloft.density import Density
 from sketchloft.errors import InputError, OutputError, UsageError
-from sketchloft.exact_model import ExactModel, model_of, tied
+from sketchloft.exact.density import Density
+from sketchloft.exact.joins import joined
+from sketchloft.exact.model import ExactModel, model_of, tied
+from sketchloft.exact.planned import planned_body
 from sketchloft.frame import Frame
-from sketchloft.joins import joined
 from sketchloft.outline.circle import Circle
 from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.outline import Outline
@@ -35,7 +36,6 @@ from sketchloft.plan.read import parse_plan, read_plan
 from sketchloft.plan.to_model import model_from_plan
 from sketchloft.plan.walls import FORMS, kind_of
 from sketchloft.plan.write import plan_text, write_plan
-from sketchloft.planned import planned_body
 from sketchloft.stack import Run, Stack, Wall
 from sketchloft.wall.lofted import lofted
 from sketchloft.wall.profile import ArcProfile, LineProfile, SplineProfile

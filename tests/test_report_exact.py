@@ -20,11 +20,11 @@ from matplotlib.image import imread
 from sketchloft import Params, PointCloud, Reconstruction, reconstruct
 from sketchloft.brep.build_stack import built_stack
 from sketchloft.cloud import Floats
-from sketchloft.density import Density
 from sketchloft.direction import DirectionParams
-from sketchloft.exact import ExactBody
-from sketchloft.exact_direction import Candidate
-from sketchloft.exact_model import ExactModel, model_of
+from sketchloft.exact.body import ExactBody
+from sketchloft.exact.density import Density
+from sketchloft.exact.direction import Candidate
+from sketchloft.exact.model import ExactModel, model_of
 from sketchloft.outline.circle import Circle
 from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.outline import Outline

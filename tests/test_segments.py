@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from sketchloft.cloud import Floats
+from sketchloft.exact.section_contours import plan_view
+from sketchloft.exact.segments import SegmentsParams, segments
+from sketchloft.exact.twist import twist_of, untwisted
 from sketchloft.sample import GOALS, sample_goal
-from sketchloft.section_contours import plan_view
-from sketchloft.segments import SegmentsParams, segments
-from sketchloft.twist import twist_of, untwisted
 
 N = 6000
 MANY = 10_000

@@ -13,11 +13,11 @@ from sketchloft.cloud import MIN_POINTS, CleanCloud, Floats, PointCloud, clean
 from sketchloft.direction import Direction, DirectionParams, slicing_direction
 from sketchloft.edge_points import EdgePoints, EdgePointsParams, edge_points
 from sketchloft.errors import ModelError, StageError, UsageError
-from sketchloft.exact import EXACT_STAGES, ExactBody, ExactParams, exact_body
+from sketchloft.exact.body import EXACT_STAGES, ExactBody, ExactParams, exact_body
+from sketchloft.exact.planned import check_bodies, planned_body
 from sketchloft.frame import Frame, frame_along
 from sketchloft.loft import LoftParams, Section
 from sketchloft.plan.plan import Plan
-from sketchloft.planned import check_bodies, planned_body
 from sketchloft.shapes.choice import ShapesParams
 from sketchloft.shapes.recognise import recognise
 from sketchloft.slice_planes import SlicePlanes, SlicePlanesParams, slice_planes

@@ -6,7 +6,7 @@ import itertools
 
 import numpy as np
 
-from sketchloft.exact import ExactBody
+from sketchloft.exact.body import ExactBody
 from sketchloft.pipeline import BodyModel, Reconstruction
 
 __all__ = ["remarks"]

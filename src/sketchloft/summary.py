@@ -6,7 +6,7 @@ from collections import Counter
 from typing import Any
 
 from sketchloft.cloud import Unit
-from sketchloft.exact import ExactBody
+from sketchloft.exact.body import ExactBody
 from sketchloft.pipeline import BodyModel, Reconstruction
 from sketchloft.remarks import remarks
 

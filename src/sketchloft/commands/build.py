@@ -15,7 +15,8 @@ from sketchloft.commands.console import Json, Quiet, Verbose, progress, remark, 
 from sketchloft.direction import DirectionParams, parse_axis
 from sketchloft.edge_points import EdgePointsParams, parse_probe_radius
 from sketchloft.errors import UsageError
-from sketchloft.exact import ExactParams
+from sketchloft.exact.body import ExactParams
+from sketchloft.exact.planned import plan_of
 from sketchloft.io import read_cloud
 from sketchloft.loft import Between, LoftParams
 from sketchloft.output import check_writable
@@ -23,7 +24,6 @@ from sketchloft.pipeline import EXACT_STAGES, STAGES, Method, Params, reconstruc
 from sketchloft.plan.plan import Plan
 from sketchloft.plan.read import read_plan
 from sketchloft.plan.write import write_plan
-from sketchloft.planned import plan_of
 from sketchloft.shapes.choice import ShapesParams, parse_shapes
 from sketchloft.slice_planes import CentralAxis, SlicePlanesParams, parse_per_slice
 from sketchloft.summary import summary, summary_lines

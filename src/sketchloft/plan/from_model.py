@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sketchloft.cloud import Floats
-from sketchloft.exact_model import ExactModel
+from sketchloft.exact.joins import joined
+from sketchloft.exact.model import ExactModel
 from sketchloft.frame import Frame
-from sketchloft.joins import joined
 from sketchloft.plan.plan import Numbers, PlannedBody, PlannedBreak, PlannedWall, Shared, Value
 from sketchloft.plan.ties import Place, shared_names
 from sketchloft.plan.walls import FORMS, kind_of

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.density import Density
 from sketchloft.errors import InputError
-from sketchloft.exact_model import ExactModel, model_of, tied
-from sketchloft.joins import joined
+from sketchloft.exact.density import Density
+from sketchloft.exact.joins import joined
+from sketchloft.exact.model import ExactModel, model_of, tied
 from sketchloft.plan.from_model import followed
 from sketchloft.plan.plan import PlannedBody, PlannedWall, Shared
 from sketchloft.plan.ties import tied_pairs

@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.exact import ExactBody
+from sketchloft.exact.body import ExactBody
 
 __all__ = ["AxialCounts", "axial_counts"]
 

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from sketchloft.cloud import Floats, Unit
-from sketchloft.exact import ExactBody
+from sketchloft.exact.body import ExactBody
 from sketchloft.pipeline import Reconstruction
 from sketchloft.report.axes_style import style_axes
 from sketchloft.report.axial_counts import axial_counts

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from sketchloft.cloud import Unit
-from sketchloft.exact import ExactBody
+from sketchloft.exact.body import ExactBody
 from sketchloft.pipeline import BodyModel, Reconstruction
 from sketchloft.report.cloud_figure import cloud_figure
 from sketchloft.report.distance_figure import distance_figure

@@ -8,8 +8,8 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from sketchloft.cloud import Floats, Unit
-from sketchloft.exact import ExactBody
-from sketchloft.exact_model import ExactModel
+from sketchloft.exact.body import ExactBody
+from sketchloft.exact.model import ExactModel
 from sketchloft.pipeline import Reconstruction
 from sketchloft.report.axes_style import heading, style_axes
 from sketchloft.report.camera import FRONT

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sketchloft.exact import ExactBody
+from sketchloft.exact.body import ExactBody
 from sketchloft.report.markup import paragraph, table
 from sketchloft.report.words import counted, direction_words, number
 

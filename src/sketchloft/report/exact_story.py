@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from sketchloft.cloud import Unit
-from sketchloft.exact import ExactBody
+from sketchloft.exact.body import ExactBody
 from sketchloft.pipeline import Reconstruction
 from sketchloft.report.axial_profile_figure import axial_profile_figure
 from sketchloft.report.cuts_figure import cuts_figure

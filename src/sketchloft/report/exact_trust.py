@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from sketchloft.cloud import Unit
-from sketchloft.exact import ExactBody
+from sketchloft.exact.body import ExactBody
 from sketchloft.report.findings import noise_words, size_of, stray_words
 from sketchloft.report.markup import paragraph, table
 from sketchloft.report.precision import precision

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from sketchloft.cloud import Unit
-from sketchloft.exact import ExactBody
-from sketchloft.expected import mass_nodes, wall_nodes
+from sketchloft.exact.body import ExactBody
+from sketchloft.exact.expected import mass_nodes, wall_nodes
 from sketchloft.report.precision import Precision
 from sketchloft.report.words import counted, number
 

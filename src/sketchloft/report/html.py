@@ -11,7 +11,7 @@ import numpy as np
 
 from sketchloft import __version__
 from sketchloft.cloud import Unit
-from sketchloft.exact import ExactBody
+from sketchloft.exact.body import ExactBody
 from sketchloft.measurement import Measurement
 from sketchloft.output import beside
 from sketchloft.pipeline import BodyModel, Reconstruction

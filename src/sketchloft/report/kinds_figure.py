@@ -5,7 +5,7 @@ from __future__ import annotations
 from matplotlib.figure import Figure
 
 from sketchloft.cloud import Unit
-from sketchloft.exact import ExactBody
+from sketchloft.exact.body import ExactBody
 from sketchloft.pipeline import Reconstruction
 from sketchloft.report.axes_style import heading
 from sketchloft.report.camera import BEHIND, FRONT

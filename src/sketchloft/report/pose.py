@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from sketchloft.cloud import Floats, Unit
-from sketchloft.exact import ExactBody
+from sketchloft.exact.body import ExactBody
 from sketchloft.frame import Frame
 from sketchloft.pipeline import BodyModel, Reconstruction
 from sketchloft.report.camera import Camera, axes, project

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.dispersion import dispersion
-from sketchloft.exact import ExactBody
-from sketchloft.exact_model import ExactModel
-from sketchloft.level_set import level_set
+from sketchloft.exact.body import ExactBody
+from sketchloft.exact.dispersion import dispersion
+from sketchloft.exact.level_set import level_set
+from sketchloft.exact.model import ExactModel
 from sketchloft.report.dimensions import dimensions
 from sketchloft.stack import Run
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from sketchloft.cloud import Unit
-from sketchloft.exact import ExactBody
+from sketchloft.exact.body import ExactBody
 from sketchloft.pipeline import Reconstruction
 from sketchloft.report.dimensions import dimensions
 from sketchloft.report.markup import table

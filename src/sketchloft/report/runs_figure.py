@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from sketchloft.cloud import Floats, Unit
-from sketchloft.exact import ExactBody
+from sketchloft.exact.body import ExactBody
 from sketchloft.pipeline import Reconstruction
 from sketchloft.report.axes_style import heading, note, style_axes
 from sketchloft.report.contact_sheet import COLUMNS, contact_sheet, fit_panel

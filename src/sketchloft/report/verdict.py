@@ -7,7 +7,7 @@ from collections import Counter
 import numpy as np
 
 from sketchloft.cloud import Unit
-from sketchloft.exact import ExactBody
+from sketchloft.exact.body import ExactBody
 from sketchloft.measurement import Measurement
 from sketchloft.pipeline import BodyModel, Reconstruction
 from sketchloft.remarks import remarks

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from sketchloft.cloud import Floats, Unit
-from sketchloft.exact import ExactBody
+from sketchloft.exact.body import ExactBody
 from sketchloft.pipeline import Reconstruction
 from sketchloft.report.axes_style import heading, style_axes
 from sketchloft.report.distance_outside import distance_from_walls, distance_outside

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.section_contours import PlanView
+from sketchloft.exact.section_contours import PlanView
 
 __all__ = ["twist_of", "untwisted"]
 

@@ -12,10 +12,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from sketchloft.cloud import Floats
+from sketchloft.exact.level_set import LevelSet
+from sketchloft.exact.rule_likelihood import rule_likelihood
+from sketchloft.exact.segments import SegmentsParams
 from sketchloft.frame import frame_along
-from sketchloft.level_set import LevelSet
-from sketchloft.rule_likelihood import rule_likelihood
-from sketchloft.segments import SegmentsParams
 
 __all__ = ["Candidate", "exact_direction"]
 

@@ -7,18 +7,18 @@ from dataclasses import replace
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.density import Density
-from sketchloft.exact_model import ExactModel, model_of
-from sketchloft.fit import climb, fit_density
+from sketchloft.exact.density import Density
+from sketchloft.exact.fit import climb, fit_density
+from sketchloft.exact.model import ExactModel, model_of
+from sketchloft.exact.recognise_section import SectionShape, recognise_section
+from sketchloft.exact.schwarz import evidence
+from sketchloft.exact.section_contours import PlanView, plan_view
+from sketchloft.exact.soundness import covers
+from sketchloft.exact.twist import twist_of, untwisted
 from sketchloft.outline.circle import Circle
 from sketchloft.outline.outline import Outline
-from sketchloft.recognise_section import SectionShape, recognise_section
-from sketchloft.schwarz import evidence
-from sketchloft.section_contours import PlanView, plan_view
-from sketchloft.soundness import covers
 from sketchloft.stack import Run, Stack, Wall
 from sketchloft.surface import basis_matrix, even_knots
-from sketchloft.twist import twist_of, untwisted
 from sketchloft.wall.profile import ArcProfile, LineProfile, SplineProfile
 from sketchloft.wall.revolved import Revolved
 from sketchloft.wall.swept import Freedom, Swept

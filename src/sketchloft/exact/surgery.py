@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from sketchloft.exact_model import ExactModel, model_of
-from sketchloft.joins import natural_joins
+from sketchloft.exact.joins import natural_joins
+from sketchloft.exact.model import ExactModel, model_of
 from sketchloft.stack import Run, Stack, Wall
 
 __all__ = ["with_run", "with_runs", "with_split", "without_run"]

@@ -7,15 +7,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.density import Density
-from sketchloft.exact_model import ExactModel, model_of
-from sketchloft.fit import climb, fit_density
+from sketchloft.exact.density import Density
+from sketchloft.exact.fit import climb, fit_density
+from sketchloft.exact.model import ExactModel, model_of
+from sketchloft.exact.schwarz import evidence
+from sketchloft.exact.section_contours import contours
 from sketchloft.outline.candidates import chains, circle_of, ellipse_of, polygons, spline_of
 from sketchloft.outline.outline import Outline
 from sketchloft.outline.polygons import Polygon, corner_areas
 from sketchloft.ring import ring_length
-from sketchloft.schwarz import evidence
-from sketchloft.section_contours import contours
 from sketchloft.shapes.spline import resampled
 from sketchloft.stack import Run, Stack
 from sketchloft.wall.swept import Swept

@@ -8,13 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sketchloft.cloud import Floats
-from sketchloft.density import Density, regressed
-from sketchloft.exact_model import ExactModel
-from sketchloft.expected import mass_nodes, wall_nodes
-from sketchloft.joins import joined
-from sketchloft.likelihood import Evaluation, evaluate, share_of
-from sketchloft.soundness import sound
-from sketchloft.tilt import tilted
+from sketchloft.exact.density import Density, regressed
+from sketchloft.exact.expected import mass_nodes, wall_nodes
+from sketchloft.exact.joins import joined
+from sketchloft.exact.likelihood import Evaluation, evaluate, share_of
+from sketchloft.exact.model import ExactModel
+from sketchloft.exact.soundness import sound
+from sketchloft.exact.tilt import tilted
 
 __all__ = ["climb", "fit_density"]
 

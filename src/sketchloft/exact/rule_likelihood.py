@@ -12,8 +12,8 @@ import itertools
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.section_contours import plan_view
-from sketchloft.segments import SegmentsParams, cut
+from sketchloft.exact.section_contours import plan_view
+from sketchloft.exact.segments import SegmentsParams, cut
 
 __all__ = ["rule_likelihood"]
 

@@ -8,12 +8,12 @@ from dataclasses import replace
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.exact_model import ExactModel
-from sketchloft.joins import sole_profile
-from sketchloft.simpler_walls import profiles_like, walls_like
+from sketchloft.exact.joins import sole_profile
+from sketchloft.exact.model import ExactModel
+from sketchloft.exact.simpler_walls import profiles_like, walls_like
+from sketchloft.exact.surgery import with_run, with_split, without_run
+from sketchloft.exact.trial import Change
 from sketchloft.stack import Run
-from sketchloft.surgery import with_run, with_split, without_run
-from sketchloft.trial import Change
 from sketchloft.wall.profile import Profile, SplineProfile
 from sketchloft.wall.revolved import radius_at
 

@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.exact_model import ExactModel
-from sketchloft.expected import mass_nodes, wall_nodes
-from sketchloft.fit import climb, fit_density
-from sketchloft.likelihood import beside_walls, value_of
+from sketchloft.exact.expected import mass_nodes, wall_nodes
+from sketchloft.exact.fit import climb, fit_density
+from sketchloft.exact.likelihood import beside_walls, value_of
+from sketchloft.exact.model import ExactModel
 
 __all__ = ["sharpened"]
 

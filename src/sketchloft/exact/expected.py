@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.exact_model import ExactModel
+from sketchloft.exact.model import ExactModel
 from sketchloft.stack import Run
 from sketchloft.wall.foot import WallBoundary
 

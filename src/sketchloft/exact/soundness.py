@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.exact_model import ExactModel
+from sketchloft.exact.model import ExactModel
 from sketchloft.outline.circle import Circle
 from sketchloft.outline.ellipse import Ellipse
 from sketchloft.stack import Wall

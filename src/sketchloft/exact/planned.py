@@ -9,20 +9,20 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from sketchloft.cloud import Floats, Unit
-from sketchloft.density import Density
-from sketchloft.dispersion import dispersion
 from sketchloft.errors import InputError
-from sketchloft.exact import ROOM, ExactBody
-from sketchloft.exact_fit import sharpened
-from sketchloft.exact_model import ExactModel
-from sketchloft.fit import climb, fit_density
-from sketchloft.inside_density import inside_density
-from sketchloft.level_set import level_set
-from sketchloft.likelihood import beside_walls
+from sketchloft.exact.body import ROOM, ExactBody
+from sketchloft.exact.density import Density
+from sketchloft.exact.dispersion import dispersion
+from sketchloft.exact.fit import climb, fit_density
+from sketchloft.exact.inside_density import inside_density
+from sketchloft.exact.level_set import level_set
+from sketchloft.exact.likelihood import beside_walls
+from sketchloft.exact.model import ExactModel
+from sketchloft.exact.robust_box import middle_and_size
+from sketchloft.exact.sharpen import sharpened
 from sketchloft.plan.from_model import planned_from_model
 from sketchloft.plan.plan import Plan, PlannedBody
 from sketchloft.plan.to_model import model_from_plan
-from sketchloft.robust_box import middle_and_size
 from sketchloft.stack_volume import stack_volume
 
 if TYPE_CHECKING:

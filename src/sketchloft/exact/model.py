@@ -8,7 +8,7 @@ from typing import Literal
 import numpy as np
 
 from sketchloft.cloud import Floats, Ints
-from sketchloft.density import Density
+from sketchloft.exact.density import Density
 from sketchloft.stack import Run, Stack
 
 __all__ = ["ExactModel", "Join", "model_of", "thicker", "tied"]

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.exact_model import ExactModel, tied
-from sketchloft.fit import climb
-from sketchloft.joins import natural_joins
-from sketchloft.likelihood import beside_walls
-from sketchloft.tilt import onto_z
-from sketchloft.trial import worth
+from sketchloft.exact.fit import climb
+from sketchloft.exact.joins import natural_joins
+from sketchloft.exact.likelihood import beside_walls
+from sketchloft.exact.model import ExactModel, tied
+from sketchloft.exact.tilt import onto_z
+from sketchloft.exact.trial import worth
 from sketchloft.wall.profile import ArcProfile
 from sketchloft.wall.revolved import Revolved
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.exact_model import ExactModel
-from sketchloft.likelihood import value_of
+from sketchloft.exact.likelihood import value_of
+from sketchloft.exact.model import ExactModel
 
 __all__ = ["evidence", "price"]
 

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from sketchloft.density import Density
-from sketchloft.level_set import LevelSet
+from sketchloft.exact.density import Density
+from sketchloft.exact.level_set import LevelSet
 
 __all__ = ["dispersion"]
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.exact_model import ExactModel, Join
+from sketchloft.exact.model import ExactModel, Join
 from sketchloft.stack import Run
 from sketchloft.wall.profile import ArcProfile
 from sketchloft.wall.revolved import Revolved, radius_at

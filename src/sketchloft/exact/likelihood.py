@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sketchloft.cloud import Floats, Ints
-from sketchloft.exact_model import ExactModel
-from sketchloft.expected import expected_points, expected_slope, wall_nodes
-from sketchloft.soundness import sound
+from sketchloft.exact.expected import expected_points, expected_slope, wall_nodes
+from sketchloft.exact.model import ExactModel
+from sketchloft.exact.soundness import sound
 
 __all__ = ["Evaluation", "beside_walls", "evaluate", "share_of", "value_of"]
 

@@ -9,24 +9,24 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.coaxial import coaxial
 from sketchloft.direction import Axis
-from sketchloft.dispersion import dispersion
 from sketchloft.errors import StageError
-from sketchloft.evidence import improved
-from sketchloft.exact_direction import Candidate, exact_direction
-from sketchloft.exact_fit import sharpened
-from sketchloft.exact_model import ExactModel, thicker
-from sketchloft.exact_start import first_stack
-from sketchloft.fit import climb, fit_density
+from sketchloft.exact.coaxial import coaxial
+from sketchloft.exact.direction import Candidate, exact_direction
+from sketchloft.exact.dispersion import dispersion
+from sketchloft.exact.evidence import improved
+from sketchloft.exact.first_stack import first_stack
+from sketchloft.exact.fit import climb, fit_density
+from sketchloft.exact.inside_density import inside_density
+from sketchloft.exact.joins import natural_joins
+from sketchloft.exact.level_set import LevelSet, hollow_share, level_set, on_grid
+from sketchloft.exact.likelihood import beside_walls
+from sketchloft.exact.model import ExactModel, thicker
+from sketchloft.exact.robust_box import middle_and_size
+from sketchloft.exact.segments import SegmentsParams, segments
+from sketchloft.exact.sharpen import sharpened
+from sketchloft.exact.trial import MOST_NOISE
 from sketchloft.frame import Frame, frame_along
-from sketchloft.inside_density import inside_density
-from sketchloft.joins import natural_joins
-from sketchloft.level_set import LevelSet, hollow_share, level_set, on_grid
-from sketchloft.likelihood import beside_walls
-from sketchloft.robust_box import middle_and_size
-from sketchloft.segments import SegmentsParams, segments
-from sketchloft.trial import MOST_NOISE
 
 if TYPE_CHECKING:
     from sketchloft.brep.facts import SolidFacts

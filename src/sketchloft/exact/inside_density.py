@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.density import Density, regressed
-from sketchloft.level_set import LevelSet
+from sketchloft.exact.density import Density, regressed
+from sketchloft.exact.level_set import LevelSet
 
 __all__ = ["inside_density"]
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from sketchloft.changes import merges, splits, swaps
 from sketchloft.cloud import Floats
-from sketchloft.exact_model import ExactModel
-from sketchloft.free_walls import lofted, splined
-from sketchloft.trial import Change, tried
+from sketchloft.exact.changes import merges, splits, swaps
+from sketchloft.exact.free_walls import lofted, splined
+from sketchloft.exact.model import ExactModel
+from sketchloft.exact.trial import Change, tried
 
 __all__ = ["improved"]
 

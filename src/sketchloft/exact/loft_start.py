@@ -7,7 +7,7 @@ import itertools
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.section_contours import contours
+from sketchloft.exact.section_contours import contours
 from sketchloft.shapes.spline import fit_spline, resampled
 from sketchloft.surface import basis_matrix, even_knots
 from sketchloft.wall.lofted import Lofted, lofted

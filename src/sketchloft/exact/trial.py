@@ -7,11 +7,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.exact_model import ExactModel
-from sketchloft.fit import climb, fit_density
-from sketchloft.joins import natural_joins
-from sketchloft.likelihood import beside_walls, value_of
-from sketchloft.schwarz import price
+from sketchloft.exact.fit import climb, fit_density
+from sketchloft.exact.joins import natural_joins
+from sketchloft.exact.likelihood import beside_walls, value_of
+from sketchloft.exact.model import ExactModel
+from sketchloft.exact.schwarz import price
 
 __all__ = ["MOST_NOISE", "Change", "tried", "worth"]
 

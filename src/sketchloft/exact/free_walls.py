@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.exact_model import ExactModel
-from sketchloft.joins import sole_profile
-from sketchloft.loft_start import loft_start
+from sketchloft.exact.joins import sole_profile
+from sketchloft.exact.loft_start import loft_start
+from sketchloft.exact.model import ExactModel
+from sketchloft.exact.surgery import with_runs
+from sketchloft.exact.trial import Change, tried
 from sketchloft.stack import Run
 from sketchloft.surface import basis_matrix, even_knots
-from sketchloft.surgery import with_runs
-from sketchloft.trial import Change, tried
 from sketchloft.wall.lofted import Lofted
 from sketchloft.wall.profile import SplineProfile
 from sketchloft.wall.revolved import Revolved, radius_at

@@ -7,9 +7,9 @@ import itertools
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.density import Density
-from sketchloft.exact_model import ExactModel, model_of
-from sketchloft.segment_walls import segment_run
+from sketchloft.exact.density import Density
+from sketchloft.exact.model import ExactModel, model_of
+from sketchloft.exact.segment_walls import segment_run
 from sketchloft.stack import Run, Stack
 
 __all__ = ["first_stack"]

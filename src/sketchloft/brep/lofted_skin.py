@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from sketchloft.brep.greville import greville
-from sketchloft.surface import SkinSurface, basis_matrix
+from sketchloft.surface import SkinSurface, basis_matrix, even_knots
 from sketchloft.wall.lofted import Lofted
 
 __all__ = ["lofted_skin"]
@@ -34,10 +34,10 @@ def lofted_skin(wall: Lofted, low: float, high: float) -> SkinSurface:
     closed one opened at its seam is one on clamped knots: as many values as poles give it back exactly.
     Poles are at their Greville heights, so that z is linear in v.
     """
-    p, count = wall.degree, wall.poles.shape[1]
+    p = wall.degree
     inner = wall.knots[(wall.knots > low + EXACT) & (wall.knots < high - EXACT)]
     v_knots = np.concatenate([np.full(p + 1, low), inner, np.full(p + 1, high)])
-    u_knots = np.concatenate([np.zeros(p), np.arange(count + 1) / count, np.ones(p)])
+    u_knots = even_knots(0.0, 1.0, wall.poles.shape[1])
     heights, around = greville(v_knots, p), greville(u_knots, p)
     along_inverse = np.linalg.inv(basis_matrix(v_knots, p, heights))
     around_inverse = np.linalg.inv(basis_matrix(u_knots, p, around))

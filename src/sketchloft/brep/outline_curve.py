@@ -15,7 +15,7 @@ from sketchloft.brep.kernel import direction, point
 from sketchloft.cloud import Floats
 from sketchloft.outline.outline import Arc, Closed, Edge, Segment
 from sketchloft.shapes.spline import ClosedSpline
-from sketchloft.surface import basis_matrix
+from sketchloft.surface import basis_matrix, even_knots
 
 __all__ = ["Conic", "Nurbs", "conic_of", "nurbs_of"]
 
@@ -111,8 +111,7 @@ def nurbs_of(edge: Edge) -> Nurbs:
 
 
 def _cut_open(poles: Floats) -> Nurbs:
-    count = len(poles)
-    knots = np.concatenate([np.zeros(3), np.arange(count + 1) / count, np.ones(3)])
+    knots = even_knots(0.0, 1.0, len(poles))
     sites = greville(knots, 3)
     clamped: Floats = np.linalg.inv(basis_matrix(knots, 3, sites)) @ ClosedSpline(poles).evaluate(sites)
     clamped[-1] = clamped[0]

@@ -21,7 +21,7 @@ from sketchloft.brep.shell_parts import CurvePart
 from sketchloft.brep.tube import Side, Tube, tube
 from sketchloft.cloud import Floats
 from sketchloft.outline.outline import Arc, Closed, Edge, Segment
-from sketchloft.surface import SkinSurface, basis_matrix
+from sketchloft.surface import SkinSurface, basis_matrix, even_knots
 from sketchloft.wall.swept import Swept
 
 __all__ = ["swept_tube"]
@@ -183,7 +183,7 @@ def _twist(wall: Swept, low: float, high: float, reach: float) -> tuple[Motion, 
     fine = np.linspace(low, high, 257)
     exact = _motion(wall, fine)
     for spans in range(1, 200):
-        knots = np.concatenate([np.full(3, low), np.linspace(low, high, spans + 1), np.full(3, high)])
+        knots = even_knots(low, high, spans)
         sites = greville(knots, 3)
         at = _motion(wall, sites)
         inverse = np.linalg.inv(basis_matrix(knots, 3, sites))

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from sketchloft.cloud import Floats
+from sketchloft.intervals import cheapest_chain
 
 __all__ = ["SegmentsParams", "cut", "segments"]
 
@@ -68,7 +69,7 @@ def cut(points: Floats, params: SegmentsParams, dispersion: float) -> tuple[Floa
         spread = _smooth(np.maximum(square - mean**2, 0), count)
         spread = np.maximum(spread, 1e-4 * float(spread.max()) + 1e-30)
         cost += _costs(t, mean, count / spread, shortest=params.shortest)
-    chain, best = _cuts(cost / dispersion, params.price)
+    chain, best = cheapest_chain(cost / dispersion + params.price)
     return edges[chain], best
 
 
@@ -103,18 +104,3 @@ def _costs(t: Floats, values: Floats, weights: Floats, shortest: int) -> Floats:
     window = max(b // WINDOWS, 8)
     typical = np.median(2 * np.diagonal(cost, window)) / (window - 3)
     return cost / max(1.0, float(typical))
-
-
-def _cuts(cost: Floats, price: float) -> tuple[list[int], float]:
-    """Bins at which the cheapest chain of intervals starts and ends, and its cost."""
-    b = len(cost) - 1
-    best, back = np.full(b + 1, np.inf), np.zeros(b + 1, dtype=int)
-    best[0] = 0.0
-    for j in range(1, b + 1):
-        options = best[:j] + cost[:j, j] + price
-        back[j] = int(np.argmin(options))
-        best[j] = options[back[j]]
-    chain = [b]
-    while chain[-1] > 0:
-        chain.append(int(back[chain[-1]]))
-    return chain[::-1], float(best[b])

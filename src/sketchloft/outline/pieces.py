@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from sketchloft.cloud import Floats, Ints
+from sketchloft.intervals import cheapest_chain
 from sketchloft.shapes.spline import resampled
 
 __all__ = ["line_arc_pieces"]
@@ -48,7 +49,7 @@ def line_arc_pieces(ring: Floats, noise: float, rounding: float, price: float) -
     closed = np.concatenate([points, points[:1]])
     line, arc, bulge = _costs(closed, noise, trim)
     cost = np.minimum(line + LINE_PRICE * price, arc + ARC_PRICE * price)
-    cuts = _chain(cost)
+    cuts, _ = cheapest_chain(cost)
     i, j = np.array(cuts[:-1]), np.array(cuts[1:])
     straight = line[i, j] + LINE_PRICE * price <= arc[i, j] + ARC_PRICE * price
     bulges = np.where(straight, 0.0, bulge[i, j])
@@ -104,20 +105,6 @@ def _bulge(start: Floats, ends: Floats, middles: Floats, centres: Floats) -> Flo
     half = np.mod(angle(middles) - first, 2 * np.pi)
     sweep = np.where(half <= whole, whole, whole - 2 * np.pi)
     return np.tan(np.clip(sweep / 4, -1.2, 1.2))
-
-
-def _chain(cost: Floats) -> list[int]:
-    m = len(cost)
-    best, back = np.full(m, np.inf), np.zeros(m, dtype=int)
-    best[0] = 0.0
-    for j in range(1, m):
-        options = best[:j] + cost[:j, j]
-        back[j] = int(np.argmin(options))
-        best[j] = options[back[j]]
-    chain = [m - 1]
-    while chain[-1] > 0:
-        chain.append(int(back[chain[-1]]))
-    return chain[::-1]
 
 
 def _corners(closed: Floats, i: Ints, j: Ints, straight: np.ndarray, trim: int) -> Floats:

@@ -35,10 +35,7 @@ def section_path(wall: Wall, height: float) -> Floats:
 def _swept(wall: Swept, height: float) -> Floats:
     """The outline, carried to the height."""
     path = np.concatenate([_along(edge) for edge in wall.outline.edges()])
-    rise = height - wall.height
-    cos, sin = np.cos(wall.twist * rise), np.sin(wall.twist * rise)
-    arm = (1 + wall.taper * rise) * (path - wall.pivot) @ np.array([[cos, sin], [-sin, cos]])
-    return np.asarray(wall.pivot + wall.drift * rise + arm)
+    return wall.carried(path, np.array([height]))[0]
 
 
 def _along(edge: Edge) -> Floats:

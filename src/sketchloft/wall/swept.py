@@ -109,6 +109,14 @@ class Swept:
             c * scale * seen.distance, normal, np.concatenate(columns, axis=1), c * seen.curvature / scale
         )
 
+    def carried(self, points: Floats, heights: Floats) -> Floats:
+        """Places (m, k, 2) where points (k, 2) of the outline lie at heights (m,)."""
+        dz = (heights - self.height)[:, None]
+        cos, sin = np.cos(self.twist * dz), np.sin(self.twist * dz)
+        x, y = (points - self.pivot).T
+        arm = np.stack([x * cos - y * sin, x * sin + y * cos], axis=2)
+        return self.pivot + dz[..., None] * self.drift + (1 + self.taper * dz)[..., None] * arm
+
     def boundary(self, low: float, high: float, count: int) -> WallBoundary:
         """About `count` points on the wall between two heights."""
         x, w = GAUSS
@@ -118,8 +126,7 @@ class Swept:
         scale = 1 + self.taper * dz
         cos, sin = np.cos(self.twist * dz), np.sin(self.twist * dz)
         arm = ring.points - self.pivot
-        xy = np.stack([arm[:, 0] * cos - arm[:, 1] * sin, arm[:, 0] * sin + arm[:, 1] * cos], axis=2)
-        xy = self.pivot + dz[..., None] * self.drift + scale[..., None] * xy
+        xy = self.carried(ring.points, z)
         flat = np.stack(
             [
                 ring.normals[:, 0] * cos - ring.normals[:, 1] * sin,

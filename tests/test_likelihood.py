@@ -64,6 +64,10 @@ WALLS: dict[str, Wall] = {
     "tapered": swept(Ellipse(CENTRE, 0.3, 0.2, 0.7), "taper"),
     "twisted": swept(RegularPolygon(CENTRE, 0.35, 0.2, 5), "twist"),
     "all at once": swept(RoundedRectangle(CENTRE, 0.6, 0.4, 0.3, 0.08), "drift", "taper", "twist"),
+    "ellipsoid": Swept(Ellipse(CENTRE, 0.4, 0.3, 0.7), 0.05, CENTRE, ORIGIN, 0.2, 0.0, ("taper", "bow"), 2.0),
+    "pillow": Swept(
+        Rectangle(CENTRE, 0.6, 0.4, 0.3), 0.05, CENTRE, ORIGIN, -0.2, 0.0, ("drift", "taper", "bow"), 1.8
+    ),
     "rounded": swept(RoundedPolygon(ELL, 0.03)),
     "lines and arcs": swept(LineArc(ELL, BULGES, BULGES != 0)),
     "free outline": swept(FLOWER),
@@ -117,9 +121,8 @@ def assert_slopes(points: Floats, model: ExactModel, *, rounded: bool = False) -
     some = sorted({*range(0, count, 1 + count // 20), *range(model.size, count)})
     slopes = [(shifted(points, model, i, step) - shifted(points, model, i, -step)) / (2 * step) for i in some]
     off = np.abs(found.score[some] - slopes) / np.sqrt(np.diag(found.information))[some]
-    # A wall's curvature is taken to stay when the wall moves, and when the noise grows.
-    assert off[:-1].max() < (0.3 if rounded else 0.05)
-    assert off[-1] < 0.3
+    # A wall's curvature is taken to stay when the wall moves.
+    assert off.max() < (0.3 if rounded else 0.05)
 
 
 @each

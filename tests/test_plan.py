@@ -82,6 +82,10 @@ WALLS: list[Wall] = [
         for outline in OUTLINES
     ),
     Swept(OUTLINES[2], 0.0, np.zeros(2), np.zeros(2), 0.0, 0.5, ("twist",)),
+    *(
+        Swept(outline, 0.1, np.array([0.01, 0.02]), np.zeros(2), 0.3, 0.0, ("taper", "bow"), 1.5)
+        for outline in OUTLINES
+    ),
 ]
 BOX = """
 [[body]]
@@ -384,7 +388,7 @@ def wall_text(**fields: object) -> str:
         ),
         (
             {"kind": "circle", "centre": [0, 0], "radius": 1, "taper": -0.5},
-            "found a taper that comes to a point at 2, expected none within the run",
+            "found a wall that comes to a point at 2, expected none within the run",
         ),
         ({"kind": "circle", "centre": "r", "radius": 1}, r"name of \[body.shared\]: middle"),
     ],

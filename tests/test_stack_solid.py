@@ -197,6 +197,18 @@ CASES: dict[str, tuple[Stack, dict[str, int]]] = {
         stack([0, 0.3, 0.9], swept(BOX), swept(BOX, 0.3, twist=1.5)),
         {"BSplineSurface": 4, "Plane": 6},
     ),
+    "ellipsoid": (
+        stack([0.2 - 1 / 3, 0.2 + 1 / 3], swept(Ellipse(AXIS, 0.4, 0.2, 0.2), 0.2, bow=3.0)),
+        {"BSplineSurface": 1},
+    ),
+    "slanted pillow, cut": (
+        stack([0, 0.4], swept(rectangle(0.8, 0.6), drift=np.array([0.3, 0.1]), taper=0.5, bow=2.0)),
+        {"BSplineSurface": 4, "Plane": 2},
+    ),
+    "dome on a prism": (
+        stack([0, 0.3, 0.8], swept(Ellipse(AXIS, 0.4, 0.2, 0.2)), swept(Ellipse(AXIS, 0.4, 0.2, 0.2), 0.3, bow=2.0)),
+        {"BSplineSurface": 1, "Plane": 1, "SurfaceOfLinearExtrusion": 1},
+    ),
     "crossing sections": (
         stack([0, 0.4, 0.8], swept(Ellipse(AXIS, 0.4, 0.2, 0.2)), swept(rectangle(0.5, 0.5))),
         {"Plane": 10, "SurfaceOfLinearExtrusion": 1},
@@ -225,6 +237,7 @@ def test_volumes_are_the_known_ones() -> None:
     assert stack_volume(CASES["pyramid"][0]) == pytest.approx(0.8 * 0.6 * 0.6 / 3, rel=1e-12)
     beyond_its_tip = stack([0, 0.9], swept(rectangle(0.8, 0.6), taper=-1 / 0.6))
     assert solid_of(beyond_its_tip).volume == pytest.approx(0.8 * 0.6 * 0.6 / 3, rel=1e-12)
+    assert stack_volume(CASES["ellipsoid"][0]) == pytest.approx(4 / 3 * np.pi * 0.4 * 0.2 / 3, rel=1e-12)
     assert solid_of(stack([-0.5, 0.5], sphere(0, 0.4))).volume == pytest.approx(4 / 3 * np.pi * 0.4**3)
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 
-__all__ = ["Frame", "frame_along"]
+__all__ = ["Frame", "frame_along", "principal_frame"]
 
 
 @dataclass(frozen=True)
@@ -64,3 +64,14 @@ def frame_along(direction: Floats, points: Floats) -> Frame:
     if ((points @ x) ** 3).sum() < 0:
         x = -x
     return Frame(np.stack([x, np.cross(z, x), z]))
+
+
+def principal_frame(points: Floats) -> Frame:
+    """Frame of the principal axes of points (n, 3) about their centre, the longest first.
+
+    An axis has no sign of its own; its third moment gives it one that turns with the cloud.
+    """
+    _, vectors = np.linalg.eigh(points.T @ points)
+    axes = vectors.T[::-1]
+    axes = axes * np.where(((points @ axes.T) ** 3).sum(axis=0) < 0, -1.0, 1.0)[:, None]
+    return Frame(np.stack([axes[0], axes[1], np.cross(axes[0], axes[1])]))

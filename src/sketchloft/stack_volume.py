@@ -38,7 +38,7 @@ def _quadrature(wall: Wall, low: float, high: float) -> tuple[Floats, Floats]:
     if isinstance(wall, Lofted):
         return _gauss(_ends(wall.knots, low, high))
     if isinstance(wall, Swept):
-        return _gauss(np.array(_before_tip(wall, low, high)))
+        return _gauss(np.clip(wall.tips(), low, high))
     match wall.profile:
         case SplineProfile(knots):
             return _gauss(_ends(knots, low, high))
@@ -55,14 +55,6 @@ def _quadrature(wall: Wall, low: float, high: float) -> tuple[Floats, Floats]:
             angle, weights = _gauss(angles, ARC_POINTS)
             return height + radius * np.sin(angle), weights * radius * np.cos(angle)
     return _gauss(np.array([low, high]))
-
-
-def _before_tip(wall: Swept, low: float, high: float) -> tuple[float, float]:
-    """The heights between which a tapered wall encloses anything."""
-    if not wall.taper:
-        return low, high
-    tip = wall.height - 1 / wall.taper
-    return (low, min(max(tip, low), high)) if wall.taper < 0 else (max(min(tip, high), low), high)
 
 
 def _ends(inner: Floats, low: float, high: float) -> Floats:

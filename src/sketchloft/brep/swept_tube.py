@@ -14,6 +14,7 @@ from OCP.Geom import (
 )
 from OCP.gp import gp_Ax3, gp_Dir
 
+from sketchloft.brep.domed_sides import domed_sides
 from sketchloft.brep.greville import greville
 from sketchloft.brep.kernel import CONFUSION, bspline_curve, bspline_surface, direction, point
 from sketchloft.brep.outline_curve import Conic, Nurbs, conic_of, nurbs_of
@@ -27,7 +28,7 @@ from sketchloft.wall.swept import Swept
 __all__ = ["swept_tube"]
 
 MEET = 1e-6
-"""Scale below which a tapered wall has come down to its tip."""
+"""Heights nearer to a tip than this are the tip."""
 EXACT = 1e-9
 """Below this, in a solid about 1 across, a movement is none."""
 TWIST_ERROR = 1e-6
@@ -61,6 +62,9 @@ def swept_tube(wall: Swept, low: float, high: float) -> Tube:
     """Make the faces of a swept wall between two heights."""
     edges = wall.outline.edges()
     low, high, tips = _span(wall, low, high)
+    if wall.bows:
+        sides, posts = domed_sides(wall, low, high)
+        return tube([_without_tips(side, tips) for side in sides], posts)
     if wall.twist:
         return _twisted(wall, edges, (low, high), tips)
     ends = _motion(wall, np.array([low, high]))
@@ -71,12 +75,9 @@ def swept_tube(wall: Swept, low: float, high: float) -> Tube:
 
 def _span(wall: Swept, low: float, high: float) -> tuple[float, float, tuple[bool, bool]]:
     """Where the wall starts and ends, and whether it does so in its tip."""
-    scales = 1 + wall.taper * (np.array([low, high]) - wall.height)
-    is_tip = (bool(scales[0] < MEET), bool(scales[1] < MEET))
-    if not any(is_tip):
-        return low, high, is_tip
-    tip = wall.height - 1 / wall.taper
-    return (tip if is_tip[0] else low), (tip if is_tip[1] else high), is_tip
+    below, above = wall.tips()
+    is_tip = below > low - MEET, above < high + MEET
+    return max(low, below) if not is_tip[0] else below, min(high, above) if not is_tip[1] else above, is_tip
 
 
 def _without_tips(side: Side, tips: tuple[bool, bool]) -> Side:

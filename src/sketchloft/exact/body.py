@@ -22,11 +22,11 @@ from sketchloft.exact.joins import natural_joins
 from sketchloft.exact.level_set import LevelSet, hollow_share, level_set, on_grid
 from sketchloft.exact.likelihood import beside_walls
 from sketchloft.exact.model import ExactModel, thicker
-from sketchloft.exact.robust_box import middle_and_size
+from sketchloft.exact.robust_size import middle_and_size
 from sketchloft.exact.segments import SegmentsParams, segments
 from sketchloft.exact.sharpen import sharpened
 from sketchloft.exact.trial import MOST_NOISE
-from sketchloft.frame import Frame, frame_along
+from sketchloft.frame import Frame, frame_along, principal_frame
 
 if TYPE_CHECKING:
     from sketchloft.brep.facts import SolidFacts
@@ -146,11 +146,12 @@ def exact_body(
     sample = _sample(local)
     cuts, first, together = _start(sample, params)
     progress("evidence")
-    model = natural_joins(_settled(sample, first))
-    model = natural_joins(replace(model, sigma=max(model.sigma, AT_LEAST)))
+    model, sample, settling = _settled(sample, first, tilt=axis == "auto")
+    model = natural_joins(replace(natural_joins(model), sigma=max(model.sigma, AT_LEAST)))
     model, _, _ = climb(sample[beside_walls(sample, model, BESIDE * model.sigma)], model, 8)
     model = improved(sample, model, together)
     model, _, turn = coaxial(sample, model, together, tilt=axis == "auto")
+    turn = settling @ turn
     progress("fit")
     model, local, rotation = sharpened(
         local @ turn, thicker(model, len(local) / len(sample)), tilt=axis == "auto"
@@ -167,10 +168,13 @@ def exact_body(
 
 
 def _candidates(points: Floats, params: ExactParams) -> tuple[Candidate, ...]:
-    grid, together, kept = _seen(_sample(points))
+    """Directions, found in the frame of the principal axes so that they turn with the cloud."""
+    frame = principal_frame(points)
+    grid, together, kept = _seen(_sample(frame.to_local(points)))
     mean = kept.mean(axis=0)
     grid = replace(grid, origin=grid.origin - mean)
-    return exact_direction(kept - mean, grid, params.segments, together)
+    found = exact_direction(kept - mean, grid, params.segments, together)
+    return tuple(replace(candidate, vector=frame.to_world(candidate.vector)) for candidate in found)
 
 
 def _start(points: Floats, params: ExactParams) -> tuple[Floats, ExactModel, float]:
@@ -202,9 +206,12 @@ def _seen(points: Floats) -> tuple[LevelSet, float, Floats]:
     return grid, dispersion(grid), points[on_grid(grid, points, 2 * grid.blur)]
 
 
-def _settled(points: Floats, model: ExactModel) -> ExactModel:
+def _settled(points: Floats, model: ExactModel, *, tilt: bool) -> tuple[ExactModel, Floats, Floats]:
+    """The first stack fitted, the points turned with its direction, and the rotation."""
+    turn = np.eye(3)
     for noise in (False, True):
         model = fit_density(points, model, 2)
         near = points[beside_walls(points, model, BESIDE * model.sigma)]
-        model, _, _ = climb(near, model, 8, noise=noise, most=MOST_NOISE)
-    return model
+        model, _, rotation = climb(near, model, 8, tilt=tilt, noise=noise, most=MOST_NOISE)
+        points, turn = points @ rotation, turn @ rotation
+    return model, points, turn

@@ -11,11 +11,12 @@ from sketchloft.cloud import Floats
 from sketchloft.exact.joins import sole_profile
 from sketchloft.exact.model import ExactModel
 from sketchloft.exact.simpler_walls import profiles_like, walls_like
-from sketchloft.exact.surgery import with_run, with_split, without_run
+from sketchloft.exact.surgery import with_run, with_runs, with_split, without_run
 from sketchloft.exact.trial import Change
-from sketchloft.stack import Run
+from sketchloft.stack import Run, Wall
 from sketchloft.wall.profile import Profile, SplineProfile
 from sketchloft.wall.revolved import radius_at
+from sketchloft.wall.swept import Freedom, Swept
 
 __all__ = ["merges", "splits", "swaps"]
 
@@ -23,6 +24,9 @@ SPLIT_SAMPLES = 41
 """Heights of a profile at which it may be split."""
 SHORTEST = 5
 """Samples that each part has at least."""
+TINY = 1e-12
+THIN = 1e-6
+"""Half the thickness of what stands for a section."""
 
 
 def merges(model: ExactModel) -> Iterator[Change]:
@@ -37,9 +41,43 @@ def merges(model: ExactModel) -> Iterator[Change]:
             if 0 <= heir < count:
                 first = min(j, heir)
                 yield Change(without_run(model, j, heir), range(first, first + 1))
+                slanted = _slanted(model, heir, j)
+                if slanted is not None:
+                    yield Change(with_runs(model, first, first + 1, slanted), range(first, first + 1))
         if j in (0, count - 1):
             place = 0 if j == 0 else count - 2
             yield Change(without_run(model, j, None), range(place, place + 1))
+
+
+def _slanted(model: ExactModel, heir: int, other: int) -> Run | None:
+    """The run of the heir, moving and growing so that it leads into the other; None if it cannot."""
+    walls, breaks = model.stack.runs[heir].walls, model.stack.breaks
+    others = model.stack.runs[other].walls
+    if len(walls) != len(others):
+        return None
+    here, there = ((breaks[k] + breaks[k + 1]) / 2 for k in (heir, other))
+    slanted: list[Wall] = []
+    for wall, beyond in zip(walls, others, strict=True):
+        if not isinstance(wall, Swept):
+            return None
+        free: tuple[Freedom, ...] = (
+            ("drift", "taper", "twist") if "twist" in wall.free else ("drift", "taper")
+        )
+        if wall.free:
+            slanted.append(replace(wall, free=free))
+            continue
+        start, end = _middle(wall, here), _middle(beyond, there)
+        areas = [max(float(w.area(np.array([z]))[0]), TINY) for w, z in ((wall, here), (beyond, there))]
+        growth = np.sqrt(areas[1] / areas[0]) - 1
+        drift, taper = (end - start) / (there - here), float(growth) / (there - here)
+        slanted.append(replace(wall, pivot=start, drift=drift, taper=taper, height=here, free=free))
+    return Run(tuple(slanted), model.stack.runs[heir].holes)
+
+
+def _middle(wall: Wall, height: float) -> Floats:
+    """Centre (2,) of the wall's section at a height."""
+    spread = wall.boundary(height - THIN, height + THIN, 48)
+    return np.asarray(spread.areas @ spread.points[:, :2] / spread.areas.sum())
 
 
 def splits(model: ExactModel) -> Iterator[Change]:

@@ -7,7 +7,9 @@ import numpy as np
 from sketchloft.cloud import Floats
 from sketchloft.exact.joins import sole_profile
 from sketchloft.exact.loft_start import loft_start
+from sketchloft.exact.misfit import misfit
 from sketchloft.exact.model import ExactModel
+from sketchloft.exact.schwarz import price
 from sketchloft.exact.surgery import with_runs
 from sketchloft.exact.trial import Change, tried
 from sketchloft.stack import Run
@@ -20,6 +22,8 @@ __all__ = ["lofted", "splined"]
 
 GAIN = 20.0
 """What a free wall must gain over a chain of lines and arcs."""
+HOPE = 2.0
+"""How much more than the score test says a loft may gain: the test holds for small movements."""
 SPANS = (4, 7, 11)
 """Knot spans of the free profiles that are tried."""
 LOFTS = ((12, 2), (16, 4), (24, 4))
@@ -61,7 +65,7 @@ def lofted(points: Floats, model: ExactModel, together: float) -> ExactModel:
         single = all(len(run.walls) == 1 for run in runs)
         revolved = all(isinstance(run.walls[0], Revolved) for run in runs)
         free = len(runs) == 1 and isinstance(runs[0].walls[0], Lofted)
-        if single and not revolved and not free:
+        if single and not revolved and not free and _promising(points, model, range(start, stop), together):
             ends = float(model.stack.breaks[start]), float(model.stack.breaks[stop])
             best: ExactModel | None = None
             for around, spans in LOFTS:
@@ -78,6 +82,14 @@ def lofted(points: Floats, model: ExactModel, together: float) -> ExactModel:
             stop = start + 1 if best is not None else stop
         start = stop
     return model
+
+
+def _promising(points: Floats, model: ExactModel, runs: range, together: float) -> bool:
+    """Whether the points leave enough unexplained for the simplest loft to pay."""
+    around, spans = LOFTS[0]
+    held = sum(len(wall.vector) for j in runs for wall in model.stack.runs[j].walls)
+    more = 2 * around * (spans + Lofted.degree) - held
+    return HOPE * misfit(points, model, runs, together) > price(more, len(points), together) + GAIN
 
 
 def _smooth(model: ExactModel, k: int) -> bool:

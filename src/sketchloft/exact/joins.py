@@ -11,6 +11,7 @@ from sketchloft.exact.model import ExactModel, Join
 from sketchloft.stack import Run
 from sketchloft.wall.profile import ArcProfile
 from sketchloft.wall.revolved import Revolved, radius_at
+from sketchloft.wall.swept import Swept
 
 __all__ = ["crossing", "joined", "natural_joins", "sole_profile"]
 
@@ -37,11 +38,9 @@ def natural_joins(model: ExactModel) -> ExactModel:
     for k in range(1, len(runs)):
         joins[k] = _natural(runs[k - 1], runs[k], float(breaks[k]), near)
     for k, run, side in ((0, runs[0], -1), (len(runs), runs[-1], 1)):
-        wall = sole_profile(run)
-        if wall is not None and isinstance(wall.profile, ArcProfile) and wall.profile.offset is None:
-            pole = wall.profile.height + side * wall.profile.radius
-            if side * (pole - breaks[k]) < near:
-                joins[k] = "pole"
+        pole = _pole(run, side)
+        if pole is not None and side * (pole - breaks[k]) < near:
+            joins[k] = "pole"
     return joined(replace(model, joins=tuple(joins)))
 
 
@@ -65,10 +64,7 @@ def _natural(below: Run, above: Run, height: float, near: float) -> Join:
 def _height(model: ExactModel, k: int, join: str) -> float | None:
     runs = model.stack.runs
     if join == "pole":
-        run, side = (runs[0], -1) if k == 0 else (runs[-1], 1)
-        wall = sole_profile(run)
-        if wall is not None and isinstance(wall.profile, ArcProfile):
-            return wall.profile.height + side * wall.profile.radius
+        return _pole(runs[0], -1) if k == 0 else _pole(runs[-1], 1)
     if join == "tangent":
         for run in (runs[k - 1], runs[k]):
             wall = sole_profile(run)
@@ -77,6 +73,19 @@ def _height(model: ExactModel, k: int, join: str) -> float | None:
     if join == "cross":
         reach = min(np.diff(model.stack.breaks)[[k - 1, k]]) / 2
         return crossing(runs[k - 1], runs[k], float(model.stack.breaks[k]), float(reach))
+    return None
+
+
+def _pole(run: Run, side: int) -> float | None:
+    """Where the wall of a run, if it has one only, meets its axis as a sphere or a dome does."""
+    wall = run.walls[0]
+    if len(run.walls) > 1:
+        return None
+    if isinstance(wall, Swept) and wall.bows:
+        tip = wall.tips()[side > 0]
+        return tip if np.isfinite(tip) else None
+    if isinstance(wall, Revolved) and isinstance(wall.profile, ArcProfile) and wall.profile.offset is None:
+        return wall.profile.height + side * wall.profile.radius
     return None
 
 

@@ -163,5 +163,5 @@ def _section(
         nx, ny, nz = foot.normal.T
         tilt[:, 0] -= signs[i] * bell * (nz * y - ny * z)
         tilt[:, 1] -= signs[i] * bell * (nx * z - nz * x)
-        grown -= bell * depth[i]
+        grown -= bell * (depth[i] + signs[i] * sigma**2 * foot.curvature)
     return outer * voids, slopes, tilt, grown

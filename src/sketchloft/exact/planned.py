@@ -18,7 +18,7 @@ from sketchloft.exact.inside_density import inside_density
 from sketchloft.exact.level_set import level_set
 from sketchloft.exact.likelihood import beside_walls
 from sketchloft.exact.model import ExactModel
-from sketchloft.exact.robust_box import middle_and_size
+from sketchloft.exact.robust_size import middle_and_size
 from sketchloft.exact.sharpen import sharpened
 from sketchloft.plan.from_model import planned_from_model
 from sketchloft.plan.plan import Plan, PlannedBody

@@ -14,7 +14,8 @@ from sketchloft.exact.schwarz import evidence
 from sketchloft.exact.section_contours import contours
 from sketchloft.outline.candidates import chains, circle_of, ellipse_of, polygons, spline_of
 from sketchloft.outline.outline import Outline
-from sketchloft.outline.polygons import Polygon, corner_areas
+from sketchloft.outline.polygons import LineArc, Polygon, corner_areas
+from sketchloft.outline.spline_loop import SplineLoop
 from sketchloft.ring import ring_length
 from sketchloft.shapes.spline import resampled
 from sketchloft.stack import Run, Stack
@@ -29,6 +30,9 @@ CROWDED = 1.5
 """An outline that leaves the points so many times denser than its contour did has lost them."""
 LATTICE = 40
 POLES = (8, 12, 20)
+WAVES = np.arange(2, 13)
+EVEN = 9.0
+"""Power of a wave around a circle that chance exceeds once in exp(9) times."""
 
 
 @dataclass(frozen=True)
@@ -78,7 +82,7 @@ def _best(points: Floats, ring: Floats, blur: float, together: float, *, hole: b
     free = attempt(spline_of(ring, POLES[0]))
     circle = attempt(circle_of(ring))
     ellipse = attempt(ellipse_of(ring))
-    if circle > max(free, ellipse):
+    if circle > max(free, ellipse) and _even(near, tried[1][1], blur, together):
         return tried[1][1]
     cut = chains(ring, blur)
     for outline in cut:
@@ -86,18 +90,31 @@ def _best(points: Floats, ring: Floats, blur: float, together: float, *, hole: b
     polygon = next((outline for outline in cut if isinstance(outline, Polygon)), None)
     for outline in polygons(ring, polygon, blur):
         attempt(outline)
-    outline = max(tried, key=lambda found: found[0])[1]
+    value, outline = max(tried, key=lambda found: found[0])
     while isinstance(outline, Polygon) and len(outline.vertices) > 3:
-        before = len(tried)
-        attempt(_simpler(outline))
-        if tried[-1][0] < max(tried[:before], key=lambda found: found[0])[0]:
+        simpler = attempt(_simpler(outline))
+        if simpler < value:
             break
-        outline = tried[-1][1]
-    for poles in POLES[1:]:
-        if max(tried, key=lambda found: found[0])[0] > free:
-            break
-        free = attempt(spline_of(ring, poles))
+        value, outline = tried[-1]
+    curved = isinstance(outline, (LineArc, SplineLoop))
+    for poles in POLES[1:] if curved else ():
+        attempt(spline_of(ring, poles))
     return max(tried, key=lambda found: found[0])[1]
+
+
+def _even(near: Floats, outline: Outline, blur: float, together: float) -> bool:
+    """Whether the points just inside and outside an outline lie evenly around it, as around a circle.
+
+    Notes
+    -----
+    Corners and flats show in the angles of the points beside the outline, whose Fourier coefficients
+    have unit variance by chance (Rayleigh's test).
+    """
+    foot = outline.foot(near)
+    arms = near[np.abs(foot.distance) < blur] - outline.boundary(24).points.mean(axis=0)
+    angles = np.arctan2(arms[:, 1], arms[:, 0])
+    powers = np.abs(np.exp(1j * WAVES[:, None] * angles).sum(axis=1)) ** 2 / max(len(angles), 1)
+    return bool((powers < EVEN * together).all())
 
 
 def _simpler(polygon: Polygon) -> Polygon:

@@ -98,12 +98,13 @@ def _walls(
     _, first, _ = plan.growth
     if isinstance(outline, Circle) and not slanted:
         return _revolved(plan, outline, ends, changing=changing)
+    bow = _bow(plan)
 
-    def swept(*free: Freedom, taper: float = 0.0) -> Swept:
+    def swept(*free: Freedom, taper: float = 0.0, bow: float = 0.0) -> Swept:
         drift = plan.drift if "drift" in free else np.zeros(2)
         if twist:
             free = (*free, "twist")
-        return Swept(outline, plan.height, plan.centre, drift, taper, twist, free)
+        return Swept(outline, plan.height, plan.centre, drift, taper, twist, free, bow)
 
     walls: list[Wall] = [swept()]
     if slanted:
@@ -112,6 +113,10 @@ def _walls(
         walls.append(swept("taper", taper=first / 2))
     if slanted and changing:
         walls.append(swept("drift", "taper", taper=first / 2))
+    if changing and not twist and bow > abs(first) / 2:
+        walls.append(swept("taper", "bow", taper=first / 2, bow=bow))
+        if slanted:
+            walls.append(swept("drift", "taper", "bow", taper=first / 2, bow=bow))
     return walls
 
 
@@ -131,7 +136,18 @@ def _revolved(plan: PlanView, circle: Circle, ends: tuple[float, float], *, chan
         knots = even_knots(ends[0] - margin, ends[1] + margin, 3)
         basis = basis_matrix(knots, 3, z)
         profiles.append(SplineProfile(knots, np.linalg.lstsq(basis, r, rcond=None)[0]))
-    return [Revolved(circle.centre, profile) for profile in profiles]
+    walls: list[Wall] = [Revolved(circle.centre, profile) for profile in profiles]
+    bow = _bow(plan)
+    if bow > abs(first) / 2:
+        still = np.zeros(2)
+        walls.append(Swept(circle, height, circle.centre, still, first / 2, 0.0, ("taper", "bow"), bow))
+    return walls
+
+
+def _bow(plan: PlanView) -> float:
+    """How much the squared size falls behind that of a straight taper, per height."""
+    _, first, second = plan.growth
+    return float(np.sqrt(max(first**2 / 4 - second, 0.0)))
 
 
 def _tori(z: Floats, r: Floats) -> list[ArcProfile]:

@@ -37,6 +37,9 @@ def walls_like(wall: Wall, low: float, high: float) -> Iterator[Wall]:
             still: Floats | float = np.zeros(2) if name == "drift" else 0.0
             free = tuple(other for other in wall.free if other != name)
             yield replace(wall, free=free, **{name: still})  # type: ignore[arg-type]
+        for freedom in ("drift", "taper"):
+            if freedom not in wall.free:
+                yield replace(wall, free=(*wall.free, freedom))
         for outline in _outlines_like(wall.outline):
             yield replace(wall, outline=outline)
         if isinstance(wall.outline, Circle) and "drift" not in wall.free:

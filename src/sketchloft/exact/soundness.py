@@ -26,13 +26,18 @@ def sound(model: ExactModel) -> bool:
     if not np.isfinite(model.vector).all() or not (np.diff(breaks) > 0).all():
         return False
     for j, run in enumerate(model.stack.runs):
-        if any(not covers(wall, breaks[j], breaks[j + 1]) for wall in run.walls):
+        if not all(covers(wall, breaks[j], breaks[j + 1]) and _closes(wall) for wall in run.walls):
             return False
         ends = np.linspace(breaks[j], breaks[j + 1], LEVELS)
         at = ends[LEVELS // 3 : -(LEVELS // 3)]  # a sphere may end before its break does
         if any((wall.area(at) <= 0).any() or not _simple(wall, ends[:: LEVELS // 8]) for wall in run.walls):
             return False
     return True
+
+
+def _closes(wall: Wall) -> bool:
+    """Whether a wall that bows is part of an ellipsoid, or of its like over another outline."""
+    return not isinstance(wall, Swept) or not wall.bows or abs(wall.bow) > abs(wall.taper)
 
 
 def _simple(wall: Wall, heights: Floats) -> bool:

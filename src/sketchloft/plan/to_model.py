@@ -100,11 +100,12 @@ def _check_reach(wall: Wall, ends: Floats, scale: float, place: str) -> None:
             f"{place}: found knots from {knots[0] * scale:.6g} to {knots[-1] * scale:.6g}, expected them to "
             f"reach from {low:.6g} to {high:.6g} as the run does"
         )
-    if isinstance(wall, Swept) and (1 + wall.taper * (ends - wall.height)).min() < -SLACK:
-        raise InputError(
-            f"{place}: found a taper that comes to a point at {(wall.height - 1 / wall.taper) * scale:.6g}, "
-            f"expected none within the run, from {low:.6g} to {high:.6g}"
-        )
+    for tip in wall.tips() if isinstance(wall, Swept) else ():
+        if ends[0] + slack < tip < ends[1] - slack:
+            raise InputError(
+                f"{place}: found a wall that comes to a point at {tip * scale:.6g}, "
+                f"expected none within the run, from {low:.6g} to {high:.6g}"
+            )
 
 
 def _check_rising(heights: Floats, expected: str) -> None:

@@ -16,7 +16,7 @@ from sketchloft.stack import Wall
 from sketchloft.wall.lofted import Lofted, lofted
 from sketchloft.wall.profile import ArcProfile, LineProfile, Profile, SplineProfile
 from sketchloft.wall.revolved import Revolved
-from sketchloft.wall.swept import Freedom, Swept
+from sketchloft.wall.swept import FREEDOMS, Freedom, Swept
 
 __all__ = ["FORMS", "kind_of"]
 
@@ -28,6 +28,7 @@ MOVES = (
     Number("drift", "drift", "ratio", (2,), required=False),
     Number("taper", "taper", "per length", required=False),
     Number("twist", "twist", "angle per length", required=False),
+    Number("bow", "bow", "per length", required=False),
 )
 PLACE = (
     Number("height", "height", fitted="no", required=False),
@@ -78,8 +79,12 @@ def _swept(described: Form) -> Form:
         outline = described.make(values)
         ring = outline.boundary(64)
         _check_turn(ring.points, "points")
-        free: tuple[Freedom, ...] = tuple(f for f in ("drift", "taper", "twist") if f in values)
-        moves = {name: values[name] for name in free}
+        free: tuple[Freedom, ...] = tuple(f for f in FREEDOMS if f in values)
+        moves: dict[str, Any] = {name: values[name] for name in free}
+        if "bow" in moves and (moves["bow"] <= abs(moves.get("taper", 0.0)) or "twist" in moves):
+            raise ValueError(
+                "found a bow beside a twist or a larger taper, expected a bow above the taper, and no twist"
+            )
         pivot = values.get("pivot", ring.lengths @ ring.points / ring.lengths.sum())
         return Swept(
             outline, values.get("height", 0.0), pivot, moves.pop("drift", np.zeros(2)), **moves, free=free
@@ -87,9 +92,9 @@ def _swept(described: Form) -> Form:
 
     def read(wall: Swept) -> dict[str, Any]:
         outline: Outline = wall.outline
-        moves = {f: getattr(wall, f) for f in ("drift", "taper", "twist")}
-        moves = {f: value for f, value in moves.items() if f in wall.free or np.any(value)}
-        turned = "taper" in moves or "twist" in moves
+        found: dict[str, Any] = {f: getattr(wall, f) for f in FREEDOMS}
+        moves = {f: value for f, value in found.items() if f in wall.free or np.any(value)}
+        turned = bool(moves.keys() - {"drift"})
         place = {"height": wall.height if moves else None, "pivot": wall.pivot if turned else None}
         return {**described.read(outline), **place, **moves}
 

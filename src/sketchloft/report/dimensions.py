@@ -54,7 +54,7 @@ def dimensions(wall: Wall, low: float, high: float) -> tuple[Dimension, ...]:
         case Revolved():
             return _revolved(wall, low, high)
         case Swept():
-            size = 1 + wall.taper * (low - wall.height)
+            size = float(wall.scale(np.array([low]))[0])
             return (*_outline(wall.outline, size, wall.twist * (low - wall.height)), *_moves(wall, low, high))
         case Lofted():
             ends = wall.area(np.array([low, high])).tolist()
@@ -152,8 +152,11 @@ def _moves(wall: Swept, low: float, high: float) -> tuple[Dimension, ...]:
     found = []
     if np.any(wall.drift):
         found.append(Dimension("slant", float(np.arctan(np.hypot(*wall.drift))), "angle"))
-    if wall.taper:
-        below, above = (1 + wall.taper * (z - wall.height) for z in (low, high))
+    if wall.bows:
+        below, above = wall.tips()
+        found.append(Dimension("dome", above - below, "length"))
+    elif wall.taper:
+        below, above = wall.scale(np.array([low, high])).tolist()
         found.append(Dimension("grows to", above / below, "ratio"))
     if wall.twist:
         found.append(Dimension("twist", wall.twist * (high - low), "angle"))

@@ -23,7 +23,7 @@ def wall_colour(wall: Wall) -> str:
     """Colour of the faces that make up most of a wall."""
     if isinstance(wall, Revolved):
         return FACES[REVOLVED[wall.kind]]
-    if not isinstance(wall, Swept) or wall.twist:
+    if not isinstance(wall, Swept) or wall.twist or wall.bows:
         return FACES["BSplineSurface"]
     if wall.outline.kind == "circle":
         return FACES["ConicalSurface" if wall.taper else "CylindricalSurface"]

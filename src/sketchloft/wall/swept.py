@@ -1,20 +1,24 @@
-"""Swept: a wall whose outline moves evenly along the axis: it may drift, taper and twist."""
+"""Swept: a wall whose outline moves along the axis: it may drift, taper, twist, and close like a dome."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Literal, Self
+from typing import Literal, Self, get_args
 
 import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.outline.outline import Outline
+from sketchloft.wall.dome import dome_foot
 from sketchloft.wall.foot import WallBoundary, WallFoot
 
-__all__ = ["Freedom", "Swept"]
+__all__ = ["FREEDOMS", "Freedom", "Swept"]
 
-Freedom = Literal["drift", "taper", "twist"]
+Freedom = Literal["drift", "taper", "twist", "bow"]
+FREEDOMS: tuple[Freedom, ...] = get_args(Freedom)
 GAUSS = np.polynomial.legendre.leggauss(6)
+LEAST_SQUARE = 1e-4
+"""The outline is looked at from no farther than its size at this squared scale."""
 
 
 @dataclass(frozen=True)
@@ -33,9 +37,12 @@ class Swept:
     taper : float
         Relative growth per height.
     twist : float
-        Turn per height in radians.
-    free : tuple of {"drift", "taper", "twist"}
+        Turn per height in radians; none where the wall bows.
+    free : tuple of {"drift", "taper", "twist", "bow"}
         Which of these are parameters; the others stay what they are.
+    bow : float
+        Per height; the squared scale is ``(1 + taper dz)**2 - (bow dz)**2``, so that the sections shrink as
+        the chords of an ellipse do.
     """
 
     outline: Outline
@@ -45,12 +52,15 @@ class Swept:
     taper: float = 0.0
     twist: float = 0.0
     free: tuple[Freedom, ...] = ()
+    bow: float = 0.0
 
     @property
     def kind(self) -> str:
         """The outline's kind, and how it moves."""
-        moves = [name for name in ("drift", "taper", "twist") if np.any(getattr(self, name))]
-        words = {"drift": "slanted", "taper": "tapered", "twist": "twisted"}
+        moves = [name for name in FREEDOMS if np.any(getattr(self, name))]
+        if "bow" in moves:
+            moves = [name for name in moves if name != "taper"]
+        words = {"drift": "slanted", "taper": "tapered", "twist": "twisted", "bow": "domed"}
         return " ".join([*(words[name] for name in moves), self.outline.kind])
 
     @property
@@ -74,12 +84,40 @@ class Swept:
         outline = self.outline.moved(vector[: len(self.outline.vector)])
         return replace(self, outline=outline, **changes)  # type: ignore[arg-type]
 
+    @property
+    def bows(self) -> bool:
+        """Whether the sections shrink as those of a dome do."""
+        return bool(self.bow) or "bow" in self.free
+
+    def square(self, heights: Floats) -> Floats:
+        """Squared scale of the sections at heights (m,), 1 at the outline's; below 0 beyond a tip."""
+        dz = heights - self.height
+        return (1 + self.taper * dz) ** 2 - (self.bow * dz) ** 2
+
+    def scale(self, heights: Floats) -> Floats:
+        """Scale of the sections at heights (m,); 0 or less beyond a tip."""
+        if self.bows:
+            return np.sqrt(np.maximum(self.square(heights), 0.0))
+        return 1 + self.taper * (heights - self.height)
+
+    def tips(self) -> tuple[float, float]:
+        """Heights between which there are sections, where the wall comes down to a point; else infinite."""
+        if not self.bows:
+            tip = self.height - 1 / self.taper if self.taper else np.inf
+            return (-np.inf, tip) if self.taper <= 0 else (tip, np.inf)
+        if abs(self.bow) <= abs(self.taper):  # no ellipse
+            return -np.inf, np.inf
+        ends = [self.height - 1 / slope for slope in (self.taper + self.bow, self.taper - self.bow)]
+        return min(ends), max(ends)
+
     def area(self, heights: Floats) -> Floats:
         """Area of the sections at heights (m,)."""
-        return self.outline.area * (1 + self.taper * (heights - self.height)) ** 2
+        return self.outline.area * (self.square(heights) if self.bows else self.scale(heights) ** 2)
 
     def foot(self, points: Floats) -> WallFoot:
         """Signed distance of points (n, 3), and its derivatives."""
+        if self.bows:
+            return self._dome(points)
         dz = points[:, 2] - self.height
         scale = np.maximum(1 + self.taper * dz, 1e-6)
         cos, sin = np.cos(self.twist * dz), np.sin(self.twist * dz)
@@ -109,21 +147,40 @@ class Swept:
             c * scale * seen.distance, normal, np.concatenate(columns, axis=1), c * seen.curvature / scale
         )
 
+    def _dome(self, points: Floats) -> WallFoot:
+        dz = points[:, 2] - self.height
+        square, rise = self.square(points[:, 2]), self.taper * (1 + self.taper * dz) - self.bow**2 * dz
+        moved = points[:, :2] - self.pivot - dz[:, None] * self.drift
+        arm = moved / np.sqrt(np.maximum(square, LEAST_SQUARE))[:, None]
+        seen = self.outline.foot(self.pivot + arm)
+        bend = self.taper**2 - self.bow**2
+        found = dome_foot(moved, seen, arm, (square, rise, bend), self.drift)
+        by = {
+            "drift": dz[:, None] * found.by_shift,
+            "taper": (2 * dz * (1 + self.taper * dz) * found.by_square)[:, None],
+            "bow": (-2 * self.bow * dz**2 * found.by_square)[:, None],
+        }
+        columns = [found.by_outline[:, None] * seen.gradient, *(by[name] for name in self.free)]
+        return WallFoot(found.distance, found.normal, np.concatenate(columns, axis=1), found.curvature)
+
     def carried(self, points: Floats, heights: Floats) -> Floats:
         """Places (m, k, 2) where points (k, 2) of the outline lie at heights (m,)."""
         dz = (heights - self.height)[:, None]
         cos, sin = np.cos(self.twist * dz), np.sin(self.twist * dz)
         x, y = (points - self.pivot).T
         arm = np.stack([x * cos - y * sin, x * sin + y * cos], axis=2)
-        return self.pivot + dz[..., None] * self.drift + (1 + self.taper * dz)[..., None] * arm
+        return self.pivot + dz[..., None] * self.drift + self.scale(heights)[:, None, None] * arm
 
     def boundary(self, low: float, high: float, count: int) -> WallBoundary:
         """About `count` points on the wall between two heights."""
-        x, w = GAUSS
-        z = (low + high) / 2 + (high - low) / 2 * x
+        z, weights = self._heights(low, high)
         ring = self.outline.boundary(max(24, count // len(z)))
         dz = (z - self.height)[:, None]
-        scale = 1 + self.taper * dz
+        scale = self.scale(z)[:, None]
+        growth = self.taper * np.ones_like(scale)
+        if self.bows:
+            rise = self.taper * (1 + self.taper * dz) - self.bow**2 * dz
+            growth = rise / np.maximum(scale, 1e-9)
         cos, sin = np.cos(self.twist * dz), np.sin(self.twist * dz)
         arm = ring.points - self.pivot
         xy = self.carried(ring.points, z)
@@ -137,14 +194,26 @@ class Swept:
         quarter = np.stack([-arm[:, 1], arm[:, 0]], axis=1)
         slope = (
             -flat @ self.drift
-            - self.taper * np.einsum("ij,ij->i", ring.normals, arm)
+            - growth * np.einsum("ij,ij->i", ring.normals, arm)
             - self.twist * scale * np.einsum("ij,ij->i", ring.normals, quarter)
         )
         steep = np.hypot(1.0, slope)
         points = np.concatenate([xy, np.broadcast_to(z[:, None, None], (*xy.shape[:2], 1))], axis=2)
         normals = np.concatenate([flat, slope[..., None]], axis=2) / steep[..., None]
-        areas = (w * (high - low) / 2)[:, None] * ring.lengths * scale * steep
+        areas = weights[:, None] * ring.lengths * scale * steep
         return WallBoundary(points.reshape(-1, 3), normals.reshape(-1, 3), areas.ravel())
+
+    def _heights(self, low: float, high: float) -> tuple[Floats, Floats]:
+        """Gauss points and weights along z; on a dome in the angle of its ellipse, for its tips' sake."""
+        x, w = GAUSS
+        below, above = self.tips()
+        if not (self.bows and np.isfinite([below, above]).all()):
+            return (low + high) / 2 + (high - low) / 2 * x, w * (high - low) / 2
+        middle, radius = (below + above) / 2, (above - below) / 2
+        ends = np.arcsin(np.clip((np.array([low, high]) - middle) / radius, -1, 1))
+        half = (ends[1] - ends[0]) / 2
+        angle = ends.mean() + half * x
+        return middle + radius * np.sin(angle), w * half * radius * np.cos(angle)
 
 
 def _turned(vectors: Floats, cos: Floats, sin: Floats) -> Floats:

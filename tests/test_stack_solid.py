@@ -99,6 +99,7 @@ SPHERES = stack(
     sphere(0, 0.4), sphere(0.5, 0.3), sphere(0.85, 0.2),
 )  # fmt: skip
 LAMP = stack([0, 0.1, 0.6, 0.9], cylinder(0.4), swept(rectangle(0.2, 0.1)), cone(0.6, 0.3, -0.5))
+ELLIPSE = Ellipse(AXIS, 0.4, 0.2, 0.2)
 CASES: dict[str, tuple[Stack, dict[str, int]]] = {
     "three spheres": (SPHERES, {"SphericalSurface": 3}),
     "lamp": (LAMP, {"ConicalSurface": 1, "CylindricalSurface": 1, "Plane": 8}),
@@ -198,7 +199,7 @@ CASES: dict[str, tuple[Stack, dict[str, int]]] = {
         {"BSplineSurface": 4, "Plane": 6},
     ),
     "ellipsoid": (
-        stack([0.2 - 1 / 3, 0.2 + 1 / 3], swept(Ellipse(AXIS, 0.4, 0.2, 0.2), 0.2, bow=3.0)),
+        stack([0.2 - 1 / 3, 0.2 + 1 / 3], swept(ELLIPSE, 0.2, bow=3.0)),
         {"BSplineSurface": 1},
     ),
     "slanted pillow, cut": (
@@ -206,11 +207,11 @@ CASES: dict[str, tuple[Stack, dict[str, int]]] = {
         {"BSplineSurface": 4, "Plane": 2},
     ),
     "dome on a prism": (
-        stack([0, 0.3, 0.8], swept(Ellipse(AXIS, 0.4, 0.2, 0.2)), swept(Ellipse(AXIS, 0.4, 0.2, 0.2), 0.3, bow=2.0)),
+        stack([0, 0.3, 0.8], swept(ELLIPSE), swept(ELLIPSE, 0.3, bow=2.0)),
         {"BSplineSurface": 1, "Plane": 1, "SurfaceOfLinearExtrusion": 1},
     ),
     "crossing sections": (
-        stack([0, 0.4, 0.8], swept(Ellipse(AXIS, 0.4, 0.2, 0.2)), swept(rectangle(0.5, 0.5))),
+        stack([0, 0.4, 0.8], swept(ELLIPSE), swept(rectangle(0.5, 0.5))),
         {"Plane": 10, "SurfaceOfLinearExtrusion": 1},
     ),
 }  # fmt: skip

@@ -1,6 +1,6 @@
 """The exact method, in the order in which a body passes through it.
 
-`body` is its orchestrator. robust_box, level_set, dispersion, inside_density: what the points say by
+`body` is its orchestrator. robust_size, level_set, dispersion, inside_density: what the points say by
 themselves. direction, rule_likelihood: along which axis. segments, section_contours, twist,
 recognise_section, segment_walls, first_stack: the first walls, segment by segment. model, density, joins,
 soundness, expected, likelihood, fit: how well walls explain points, and how they move. evidence, trial,

@@ -10,10 +10,10 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.direction import Axis
-from sketchloft.errors import StageError
+from sketchloft.errors import ModelError, StageError
 from sketchloft.exact.coaxial import coaxial
 from sketchloft.exact.direction import Candidate, exact_direction
-from sketchloft.exact.dispersion import dispersion
+from sketchloft.exact.dispersion import clump, dispersion
 from sketchloft.exact.evidence import improved
 from sketchloft.exact.first_stack import first_stack
 from sketchloft.exact.fit import climb, fit_density
@@ -27,6 +27,7 @@ from sketchloft.exact.segments import SegmentsParams, segments
 from sketchloft.exact.sharpen import sharpened
 from sketchloft.exact.trial import MOST_NOISE
 from sketchloft.frame import Frame, frame_along, principal_frame
+from sketchloft.wall.lofted import Lofted
 
 if TYPE_CHECKING:
     from sketchloft.brep.facts import SolidFacts
@@ -132,6 +133,8 @@ def exact_body(
     ModelError
         If the solid fails a check.
     """
+    from sketchloft.brep.build_stack import built_stack  # noqa: PLC0415  the kernel takes most of a second
+
     progress("direction")
     middle, scale = middle_and_size(points)
     unit = (points - middle) / scale
@@ -146,25 +149,45 @@ def exact_body(
     sample = _sample(local)
     cuts, first, together = _start(sample, params)
     progress("evidence")
-    model, sample, settling = _settled(sample, first, tilt=axis == "auto")
+    tilt = axis == "auto"
+    settled, sample, settling = _settled(sample, first, tilt=tilt)
+    local = local @ settling
+    for lofts in (True, False):
+        model, points, turn = _fitted(
+            sample, local, settled, together, tilt=tilt, lofts=lofts, progress=progress
+        )
+        found = Frame((settling @ turn).T @ frame.axes)
+        progress("solid")
+        try:
+            solid, facts = built_stack(model.stack, origin + middle, found.axes, scale)
+            break
+        except ModelError:
+            if not any(isinstance(wall, Lofted) for run in model.stack.runs for wall in run.walls):
+                raise
+    return ExactBody(
+        name, points, found.direction, candidates, found, middle, scale, cuts, first, model, solid, facts
+    )
+
+
+def _fitted(
+    sample: Floats,
+    points: Floats,
+    model: ExactModel,
+    together: float,
+    *,
+    tilt: bool,
+    lofts: bool,
+    progress: Callable[[str], None],
+) -> tuple[ExactModel, Floats, Floats]:
+    """Find the runs on a sample and fit them to all points; those turned with the direction; the rotation."""
     model = natural_joins(replace(natural_joins(model), sigma=max(model.sigma, AT_LEAST)))
     model, _, _ = climb(sample[beside_walls(sample, model, BESIDE * model.sigma)], model, 8)
-    model = improved(sample, model, together)
-    model, _, turn = coaxial(sample, model, together, tilt=axis == "auto")
-    turn = settling @ turn
+    model = improved(sample, model, together, lofts=lofts)
+    model, _, turn = coaxial(sample, model, together, tilt=tilt)
     progress("fit")
-    model, local, rotation = sharpened(
-        local @ turn, thicker(model, len(local) / len(sample)), tilt=axis == "auto"
-    )
-    turn = turn @ rotation
-    frame = Frame(turn.T @ frame.axes)
-    progress("solid")
-    from sketchloft.brep.build_stack import built_stack  # noqa: PLC0415  the kernel takes most of a second
-
-    solid, facts = built_stack(model.stack, origin + middle, frame.axes, scale)
-    return ExactBody(
-        name, local, frame.direction, candidates, frame, middle, scale, cuts, first, model, solid, facts
-    )
+    model = thicker(model, len(points) / len(sample))
+    model, points, rotation = sharpened(points @ turn, model, tilt=tilt)
+    return model, points, turn @ rotation
 
 
 def _candidates(points: Floats, params: ExactParams) -> tuple[Candidate, ...]:
@@ -202,8 +225,9 @@ def _sample(points: Floats) -> Floats:
 
 def _seen(points: Floats) -> tuple[LevelSet, float, Floats]:
     """The level set of points, how many of them go together, and those that are no strays."""
-    grid = level_set(points)
-    return grid, dispersion(grid), points[on_grid(grid, points, 2 * grid.blur)]
+    together = dispersion(points)
+    grid = level_set(points, clump(together))
+    return grid, together, points[on_grid(grid, points, 2 * grid.blur)]
 
 
 def _settled(points: Floats, model: ExactModel, *, tilt: bool) -> tuple[ExactModel, Floats, Floats]:

@@ -12,10 +12,13 @@ from sketchloft.exact.trial import Change, tried
 
 __all__ = ["improved"]
 
+ROUNDS = 2
+"""How often all changes are looked through at most."""
+
 Changes = Callable[[ExactModel], Iterator[Change]]
 
 
-def improved(points: Floats, model: ExactModel, together: float, rounds: int = 2) -> ExactModel:
+def improved(points: Floats, model: ExactModel, together: float, *, lofts: bool = True) -> ExactModel:
     """Change runs, one at a time, as long as it pays.
 
     Parameters
@@ -25,16 +28,16 @@ def improved(points: Floats, model: ExactModel, together: float, rounds: int = 2
         Fitted.
     together : float
         How many of the points go together.
-    rounds : int
-        How often all changes are looked through at most.
+    lofts : bool
+        Whether free lofts are tried.
     """
-    for _ in range(rounds):
+    for _ in range(ROUNDS):
         before = model
         model = _through(points, model, together, merges, again=True)
         model = splined(points, model, together)
         model = _through(points, model, together, splits)
         model = _through(points, model, together, swaps)
-        model = lofted(points, model, together)
+        model = lofted(points, model, together) if lofts else model
         if model is before:
             break
     return model

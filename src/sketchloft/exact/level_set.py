@@ -59,7 +59,7 @@ def level_set(points: Floats, together: float = 1.0) -> LevelSet:
     ----------
     points : (n, d) float array
     together : float
-        How many of the points go together (`dispersion`).
+        How many of the points go together where they are blurred (`clump`).
 
     Notes
     -----

@@ -12,7 +12,7 @@ from sketchloft.cloud import Floats, Unit
 from sketchloft.errors import InputError
 from sketchloft.exact.body import ROOM, ExactBody
 from sketchloft.exact.density import Density
-from sketchloft.exact.dispersion import dispersion
+from sketchloft.exact.dispersion import clump, dispersion
 from sketchloft.exact.fit import climb, fit_density
 from sketchloft.exact.inside_density import inside_density
 from sketchloft.exact.level_set import level_set
@@ -139,8 +139,9 @@ def planned_model(points: Floats, plan: PlannedBody, scale: float) -> ExactModel
 
 
 def _refitted(points: Floats, model: ExactModel) -> ExactModel:
-    grid = level_set(points)
-    model = replace(model, density=inside_density(points, grid, dispersion(grid)))
+    together = dispersion(points)
+    grid = level_set(points, clump(together))
+    model = replace(model, density=inside_density(points, grid, together))
     for noise in NOISES:
         model = fit_density(points, replace(model, sigma=noise), 2)
         near = beside_walls(points, model, BESIDE * noise)

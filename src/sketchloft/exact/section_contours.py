@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from sketchloft.cloud import Floats
+from sketchloft.exact.dispersion import clump
 from sketchloft.exact.level_set import LevelSet, level_set
 from sketchloft.ring import ring_area
 
@@ -114,7 +115,7 @@ def contours(points: Floats, together: float = 1.0) -> tuple[list[Floats], list[
     """
     import contourpy  # noqa: PLC0415
 
-    grid = level_set(points, together)
+    grid = level_set(points, clump(together))
     level = np.where(grid.inside | (grid.level <= 0.5), grid.level, 0.0)
     generator = contourpy.contour_generator(z=level.T)
     loops = [np.asarray(line, dtype=float)[:-1] for line in generator.lines(0.5)]

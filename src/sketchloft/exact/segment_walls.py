@@ -136,12 +136,7 @@ def _revolved(plan: PlanView, circle: Circle, ends: tuple[float, float], *, chan
         knots = even_knots(ends[0] - margin, ends[1] + margin, 3)
         basis = basis_matrix(knots, 3, z)
         profiles.append(SplineProfile(knots, np.linalg.lstsq(basis, r, rcond=None)[0]))
-    walls: list[Wall] = [Revolved(circle.centre, profile) for profile in profiles]
-    bow = _bow(plan)
-    if bow > abs(first) / 2:
-        still = np.zeros(2)
-        walls.append(Swept(circle, height, circle.centre, still, first / 2, 0.0, ("taper", "bow"), bow))
-    return walls
+    return [Revolved(circle.centre, profile) for profile in profiles]
 
 
 def _bow(plan: PlanView) -> float:

@@ -17,34 +17,57 @@ from sketchloft.outline.polygons import LineArc, Polygon, corner_areas
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import SplineLoop
 from sketchloft.stack import Wall
-from sketchloft.wall.profile import ArcProfile, LineProfile, Profile
+from sketchloft.wall.profile import ArcProfile, LineProfile, Profile, SplineProfile
 from sketchloft.wall.revolved import Revolved, radius_at
-from sketchloft.wall.swept import Swept
+from sketchloft.wall.swept import Freedom, Swept
 
 __all__ = ["profiles_like", "walls_like"]
+
+HEIGHTS = 25
+TINY = 1e-12
+MORE: tuple[Freedom, ...] = ("drift", "taper")
 
 
 def walls_like(wall: Wall, low: float, high: float) -> Iterator[Wall]:
     """Walls that could stand in for one between two heights."""
     if isinstance(wall, Revolved):
-        z = np.linspace(low, high, 25)
+        z = np.linspace(low, high, HEIGHTS)
         r = radius_at(wall.profile, z)[0]
         for profile in profiles_like(z, r):
             if type(profile) is not type(wall.profile) or _form(profile) != _form(wall.profile):
                 yield replace(wall, profile=profile)
+        if isinstance(wall.profile, SplineProfile):
+            yield from _spheroids(wall.centre, z, r)
     elif isinstance(wall, Swept):
-        for name in wall.free:
-            still: Floats | float = np.zeros(2) if name == "drift" else 0.0
-            free = tuple(other for other in wall.free if other != name)
-            yield replace(wall, free=free, **{name: still})  # type: ignore[arg-type]
-        for freedom in ("drift", "taper"):
-            if freedom not in wall.free:
-                yield replace(wall, free=(*wall.free, freedom))
+        yield from _moving_otherwise(wall)
         for outline in _outlines_like(wall.outline):
             yield replace(wall, outline=outline)
-        if isinstance(wall.outline, Circle) and "drift" not in wall.free:
-            slope = wall.outline.radius * wall.taper
-            yield Revolved(wall.outline.centre, LineProfile(wall.height, wall.outline.radius, slope or None))
+        if isinstance(wall.outline, Circle) and not np.any(wall.drift):
+            z = np.linspace(low, high, HEIGHTS)
+            for profile in profiles_like(z, wall.outline.radius * wall.scale(z)):
+                yield Revolved(wall.outline.centre, profile)
+
+
+def _spheroids(centre: Floats, z: Floats, r: Floats) -> Iterator[Swept]:
+    """Spheroid, about an axis at a centre, nearest to radii (m,) at heights (m,)."""
+    height = float(z.mean())
+    second, first, square = np.polyfit(z - height, r**2, 2) if (r > 0).all() else np.zeros(3)
+    taper = float(first) / 2 / max(float(square), TINY)
+    bow = np.sqrt(max(taper**2 - float(second) / max(float(square), TINY), 0.0))
+    if square > 0 and bow > abs(taper):
+        circle = Circle(centre, float(np.sqrt(square)))
+        yield Swept(circle, height, centre, np.zeros(2), taper, 0.0, ("taper", "bow"), float(bow))
+
+
+def _moving_otherwise(wall: Swept) -> Iterator[Swept]:
+    """The wall with a movement less, and with one more."""
+    for name in wall.free:
+        still: Floats | float = np.zeros(2) if name == "drift" else 0.0
+        free = tuple(other for other in wall.free if other != name)
+        yield replace(wall, free=free, **{name: still})  # type: ignore[arg-type]
+    for more in MORE:
+        if more not in wall.free:
+            yield replace(wall, free=(*wall.free, more))
 
 
 def profiles_like(z: Floats, r: Floats) -> Iterator[Profile]:

@@ -28,11 +28,24 @@ def sound(model: ExactModel) -> bool:
     for j, run in enumerate(model.stack.runs):
         if not all(covers(wall, breaks[j], breaks[j + 1]) and _closes(wall) for wall in run.walls):
             return False
+        if any(_ends_within(wall, model, j) for wall in run.walls):
+            return False
         ends = np.linspace(breaks[j], breaks[j + 1], LEVELS)
         at = ends[LEVELS // 3 : -(LEVELS // 3)]  # a sphere may end before its break does
         if any((wall.area(at) <= 0).any() or not _simple(wall, ends[:: LEVELS // 8]) for wall in run.walls):
             return False
     return True
+
+
+def _ends_within(wall: Wall, model: ExactModel, j: int) -> bool:
+    """Whether a sphere or a dome ends before a break that other runs lie beyond."""
+    low, high = -np.inf, np.inf
+    if isinstance(wall, Swept) and wall.bows:
+        low, high = wall.tips()
+    elif isinstance(wall, Revolved) and isinstance(wall.profile, ArcProfile) and wall.profile.offset is None:
+        low, high = wall.profile.height - wall.profile.radius, wall.profile.height + wall.profile.radius
+    below, above = model.stack.breaks[j], model.stack.breaks[j + 1]
+    return bool((j > 0 and below < low) or (j + 1 < len(model.stack.runs) and above > high))
 
 
 def _closes(wall: Wall) -> bool:

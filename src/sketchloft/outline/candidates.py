@@ -57,8 +57,7 @@ def chains(ring: Floats, blur: float) -> list[Outline]:
     """
     found: list[Outline] = []
     seen: set[tuple[bool, ...]] = set()
-    for price in PRICES[::-1]:
-        vertices, bulges = line_arc_pieces(ring, CONTOUR_NOISE * blur, ROUNDING * blur, price)
+    for vertices, bulges in line_arc_pieces(ring, CONTOUR_NOISE * blur, ROUNDING * blur, PRICES[::-1]):
         curved = bulges != 0
         key = tuple(curved.tolist())
         if len(vertices) < 2 or len(vertices) > MOST_CORNERS or key in seen:

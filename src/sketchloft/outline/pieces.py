@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from sketchloft.cloud import Floats, Ints
@@ -17,8 +19,10 @@ WORST = 4.0
 """Largest deviation that a piece may have anywhere, in deviations of the contour."""
 
 
-def line_arc_pieces(ring: Floats, noise: float, rounding: float, price: float) -> tuple[Floats, Floats]:
-    """Cut a closed contour into lines and arcs.
+def line_arc_pieces(
+    ring: Floats, noise: float, rounding: float, prices: Sequence[float]
+) -> list[tuple[Floats, Floats]]:
+    """Cut a closed contour into lines and arcs, and into lines alone.
 
     Parameters
     ----------
@@ -28,14 +32,13 @@ def line_arc_pieces(ring: Floats, noise: float, rounding: float, price: float) -
         Standard deviation of the contour about the true outline.
     rounding : float
         Length beside a corner within which the contour is rounded off.
-    price : float
+    prices : sequence of float
         What each piece costs, relative to the usual: larger values give fewer pieces.
 
     Returns
     -------
-    vertices : (k, 2) float array
-    bulges : (k,) float array
-        0 on lines.
+    list of (k, 2) and (k,) float arrays
+        Vertices and bulges, 0 on lines; for each price lines and arcs, then for each price lines alone.
 
     Notes
     -----
@@ -48,12 +51,14 @@ def line_arc_pieces(ring: Floats, noise: float, rounding: float, price: float) -
     points = np.roll(points, -_sharpest(points, max(trim, 2)), axis=0)
     closed = np.concatenate([points, points[:1]])
     line, arc, bulge = _costs(closed, noise, trim)
-    cost = np.minimum(line + LINE_PRICE * price, arc + ARC_PRICE * price)
-    cuts, _ = cheapest_chain(cost)
-    i, j = np.array(cuts[:-1]), np.array(cuts[1:])
-    straight = line[i, j] + LINE_PRICE * price <= arc[i, j] + ARC_PRICE * price
-    bulges = np.where(straight, 0.0, bulge[i, j])
-    return _corners(closed, i, j, straight, trim), bulges
+    found = []
+    for curved in (arc, np.full_like(arc, np.inf)):
+        for price in prices:
+            cuts, _ = cheapest_chain(np.minimum(line + LINE_PRICE * price, curved + ARC_PRICE * price))
+            i, j = np.array(cuts[:-1]), np.array(cuts[1:])
+            straight = line[i, j] + LINE_PRICE * price <= curved[i, j] + ARC_PRICE * price
+            found.append((_corners(closed, i, j, straight, trim), np.where(straight, 0.0, bulge[i, j])))
+    return found
 
 
 def _sharpest(points: Floats, reach: int) -> int:

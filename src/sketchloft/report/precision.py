@@ -9,7 +9,6 @@ import numpy as np
 from sketchloft.cloud import Floats
 from sketchloft.exact.body import ExactBody
 from sketchloft.exact.dispersion import dispersion
-from sketchloft.exact.level_set import level_set
 from sketchloft.exact.model import ExactModel
 from sketchloft.report.dimensions import dimensions
 from sketchloft.stack import Run
@@ -65,7 +64,7 @@ def precision(body: ExactBody) -> Precision:
     A. P. Korostelev, A. B. Tsybakov, Minimax Theory of Image Reconstruction, Springer, 1993.
     """
     model = body.model
-    together = dispersion(level_set(body.points))
+    together = dispersion(body.points)
     information, points = np.zeros((model.size, model.size)), 0.0
     for j, run in enumerate(model.stack.runs):
         low, high = model.stack.breaks[[j, j + 1]].tolist()

@@ -196,7 +196,7 @@ def _candidates(points: Floats, params: ExactParams) -> tuple[Candidate, ...]:
     grid, together, kept = _seen(_sample(frame.to_local(points)))
     mean = kept.mean(axis=0)
     grid = replace(grid, origin=grid.origin - mean)
-    found = exact_direction(kept - mean, grid, params.segments, together)
+    found = exact_direction(kept - mean, grid, params.segments, clump(together))
     return tuple(replace(candidate, vector=frame.to_world(candidate.vector)) for candidate in found)
 
 
@@ -210,7 +210,7 @@ def _start(points: Floats, params: ExactParams) -> tuple[Floats, ExactModel, flo
             stage="runs",
         )
     density = inside_density(points, grid, together)
-    cuts = segments(kept, params.segments, together)
+    cuts = segments(kept, params.segments, clump(together))
     space = ROOM * float(np.prod(np.ptp(points, axis=0)))
     first = first_stack(kept, cuts, grid.blur, sigma=START, together=together, density=density, space=space)
     if first is None:

@@ -50,7 +50,8 @@ def dispersion(points: Floats) -> float:
     centres = points[:: len(points) // CENTRES + 1]
     most = min(NEIGHBOURS[1], len(points) - 1) + 1
     far, _ = tree.query(centres, [NEIGHBOURS[0] + 1, most])
-    radii = np.geomspace(*np.maximum(np.median(far, axis=0), 1e-9), RADII)
+    low, high = np.maximum(np.median(far, axis=0), 1e-9).tolist()
+    radii = np.geomspace(low, high, RADII)
     count = tree.count_neighbors(cKDTree(centres), radii) / len(centres) - 1
     weight = 1 / np.sqrt(count / len(centres) + (0.02 * count) ** 2 + 1e-12)
     rows = np.column_stack([radii**3, -(radii**4), radii]) * weight[:, None]

@@ -31,8 +31,8 @@ CROWDED = 1.5
 LATTICE = 40
 POLES = (8, 12, 20)
 WAVES = np.arange(2, 13)
-EVEN = 9.0
-"""Power of a wave around a circle that chance exceeds once in exp(9) times."""
+EVEN = 4.0
+"""Power of a wave around a circle that chance exceeds once in exp(4) times."""
 
 
 @dataclass(frozen=True)

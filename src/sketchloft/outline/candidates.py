@@ -14,7 +14,7 @@ from sketchloft.outline.polygons import LineArc, Polygon
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import SplineLoop, spline_loop
 from sketchloft.ring import ring_area, ring_centre
-from sketchloft.shapes.spline import fit_spline
+from sketchloft.shapes.spline import fit_spline, resampled
 
 __all__ = ["chains", "circle_of", "ellipse_of", "polygons", "spline_of"]
 
@@ -24,6 +24,9 @@ ROUNDING = 1.5
 """Blurs beside a corner within which the contour is rounded off."""
 PRICES = (2.5, 5.0, 10.0)
 MOST_CORNERS = 24
+AROUND = 240
+REGULAR = (3, 5, 6, 7, 8, 9, 10, 12)
+"""Sides of regular polygons that are looked for."""
 
 
 def circle_of(ring: Floats) -> Circle:
@@ -81,16 +84,26 @@ def polygons(ring: Floats, polygon: Polygon | None, blur: float) -> list[Outline
     found.append(
         RoundedRectangle(rectangle.centre, rectangle.width, rectangle.height, rectangle.angle, radius)
     )
-    if polygon is not None:
-        spokes = polygon.vertices - polygon.vertices.mean(axis=0)
-        lengths = np.linalg.norm(spokes, axis=1)
-        sides = len(lengths)
-        if sides != 4 and lengths.std() < 0.12 * lengths.mean():
-            turned = np.arctan2(spokes[:, 1], spokes[:, 0]) - 2 * np.pi * np.arange(sides) / sides
-            angle = float(np.angle(np.exp(1j * sides * turned).mean()) / sides)
-            found.append(RegularPolygon(polygon.vertices.mean(axis=0), float(lengths.mean()), angle, sides))
-        if sides != 4:
-            found.append(RoundedPolygon(polygon.vertices, 1.5 * blur))
+    found.extend(_regular(ring))
+    if polygon is not None and len(polygon.vertices) != 4:
+        found.append(RoundedPolygon(polygon.vertices, 1.5 * blur))
+    return found
+
+
+def _regular(ring: Floats) -> list[RegularPolygon]:
+    """Hexagon, and the polygon with as many sides as the contour's radius has waves, turned with them."""
+    centre = ring_centre(ring)
+    spokes = (resampled(ring, AROUND) - centre) @ [1, 1j]
+    turn = np.unwrap(np.angle(spokes))
+    step = np.angle(np.roll(spokes, -1) / np.roll(spokes, 1))
+    waves = np.array([np.sum(step * np.abs(spokes) * np.exp(-1j * sides * turn)) for sides in REGULAR])
+    # The corners' share of a wave falls with the square of their number, that of noise more slowly.
+    strongest = REGULAR[int(np.argmax(np.abs(waves) * REGULAR))]
+    found = []
+    for sides in sorted({6, strongest}):
+        radius = float(np.sqrt(2 * _area(ring) / (sides * np.sin(2 * np.pi / sides))))
+        angle = -float(np.angle(waves[REGULAR.index(sides)])) / sides
+        found.append(RegularPolygon(centre, radius, angle, sides))
     return found
 
 

@@ -17,6 +17,7 @@ from sketchloft.exact.dispersion import clump, dispersion
 from sketchloft.exact.evidence import improved
 from sketchloft.exact.first_stack import first_stack
 from sketchloft.exact.fit import climb, fit_density
+from sketchloft.exact.flush import flush
 from sketchloft.exact.inside_density import inside_density
 from sketchloft.exact.joins import natural_joins
 from sketchloft.exact.level_set import LevelSet, hollow_share, level_set, on_grid
@@ -26,6 +27,7 @@ from sketchloft.exact.robust_size import middle_and_size
 from sketchloft.exact.segments import SegmentsParams, segments
 from sketchloft.exact.sharpen import sharpened
 from sketchloft.exact.trial import MOST_NOISE
+from sketchloft.exact.upright import upright
 from sketchloft.frame import Frame, frame_along, principal_frame
 from sketchloft.wall.lofted import Lofted
 
@@ -182,12 +184,19 @@ def _fitted(
     """Find the runs on a sample and fit them to all points; those turned with the direction; the rotation."""
     model = natural_joins(replace(natural_joins(model), sigma=max(model.sigma, AT_LEAST)))
     model, _, _ = climb(sample[beside_walls(sample, model, BESIDE * model.sigma)], model, 8)
-    model = improved(sample, model, together, lofts=lofts)
-    model, _, turn = coaxial(sample, model, together, tilt=tilt)
+    turn = np.eye(3)
+    if tilt:
+        model, turn = upright(sample, model, together)
+    model = improved(sample @ turn, model, together, lofts=lofts)
+    if tilt:
+        model, rotation = upright(sample @ turn, model, together)
+        turn = turn @ rotation
+    model, _, rotation = coaxial(sample @ turn, model, together, tilt=tilt)
+    turn = turn @ rotation
     progress("fit")
     model = thicker(model, len(points) / len(sample))
     model, points, rotation = sharpened(points @ turn, model, tilt=tilt)
-    return model, points, turn @ rotation
+    return flush(points, model, together), points, turn @ rotation
 
 
 def _candidates(points: Floats, params: ExactParams) -> tuple[Candidate, ...]:

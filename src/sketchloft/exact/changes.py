@@ -109,4 +109,12 @@ def swaps(model: ExactModel) -> Iterator[Change]:
         for i, wall in enumerate(run.walls):
             for other in walls_like(wall, low, high):
                 walls = (*run.walls[:i], other, *run.walls[i + 1 :])
-                yield Change(with_run(model, j, Run(walls, run.holes)), range(j, j + 1))
+                nested = _extends(wall, other)
+                yield Change(with_run(model, j, Run(walls, run.holes)), range(j, j + 1), nested=nested)
+
+
+def _extends(wall: Wall, other: Wall) -> bool:
+    """Whether the other is the wall itself with more freedom to move."""
+    if not isinstance(wall, Swept) or not isinstance(other, Swept):
+        return False
+    return other.outline is wall.outline and len(other.free) > len(wall.free)

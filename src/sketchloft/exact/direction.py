@@ -32,10 +32,12 @@ BINS = 56
 SHORTEST = 4
 PRICE = 60.0
 SYMMETRY = 0.4
-LEANS = (0.012, 0.035, 0.012, 0.005)
+LEANS = (0.03, 0.01)
 SAME = 0.985
 MOST_POINTS = 4000
 REFINED = 3
+CONTENDER = 0.12
+"""Candidates farther than this behind the best are not refined."""
 
 
 @dataclass(frozen=True)
@@ -99,6 +101,8 @@ def exact_direction(
     candidates.sort(key=lambda candidate: -candidate.value)
     for i in range(min(REFINED, len(candidates))):
         start = candidates[i]
+        if start.value < candidates[0].value - CONTENDER:
+            break
         others = [judge(refine(start.vector, at, normals), start.source) for refine in REFINE.values()]
         candidates[i] = _refined(max([start, *others], key=lambda other: other.value), judge)
     candidates.sort(key=lambda candidate: -candidate.value)

@@ -31,12 +31,13 @@ def improved(points: Floats, model: ExactModel, together: float, *, lofts: bool 
     lofts : bool
         Whether free lofts are tried.
     """
+    failed: set[tuple[object, ...]] = set()
     for _ in range(ROUNDS):
         before = model
-        model = _through(points, model, together, merges, again=True)
+        model = _through(points, model, together, merges, failed, again=True)
         model = splined(points, model, together)
-        model = _through(points, model, together, splits)
-        model = _through(points, model, together, swaps)
+        model = _through(points, model, together, splits, failed)
+        model = _through(points, model, together, swaps, failed)
         model = lofted(points, model, together) if lofts else model
         if model is before:
             break
@@ -44,18 +45,28 @@ def improved(points: Floats, model: ExactModel, together: float, *, lofts: bool 
 
 
 def _through(
-    points: Floats, model: ExactModel, together: float, changes: Changes, *, again: bool = False
+    points: Floats,
+    model: ExactModel,
+    together: float,
+    changes: Changes,
+    failed: set[tuple[object, ...]],
+    *,
+    again: bool = False,
 ) -> ExactModel:
-    """Look through a kind of changes; after one that pays go on in its place, or `again` from the start."""
+    """Look through a kind of changes but those that failed from the same start; keep those that fail now.
+
+    After one that pays go on in its place, or `again` from the start.
+    """
     place = 0
     while True:
         for k, change in enumerate(changes(model)):
-            if k < place:
+            if k < place or change.key in failed:
                 continue
             better = tried(points, model, change, together)
             if better is not None:
                 model, place = better, 0 if again else k
                 break
+            failed.add(change.key)
             place = k + 1
         else:
             return model

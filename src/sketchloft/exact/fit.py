@@ -16,7 +16,7 @@ from sketchloft.exact.model import ExactModel
 from sketchloft.exact.soundness import sound
 from sketchloft.exact.tilt import tilted
 
-__all__ = ["climb", "fit_density"]
+__all__ = ["climb", "fit_density", "promise"]
 
 Bools = NDArray[np.bool_]
 
@@ -94,6 +94,23 @@ def climb(
         if gain < 0.02:
             break
     return model, points, turn
+
+
+def promise(points: Floats, model: ExactModel) -> float:
+    """Log likelihood that the walls would gain by moving, as its slopes say (score test).
+
+    Parameters
+    ----------
+    points : (n, 3) float array
+    model : ExactModel
+    """
+    now = evaluate(points, model)
+    if not np.isfinite(now.value):
+        return 0.0
+    index = np.flatnonzero(_free(model, tilt=False, noise=False))
+    information, score = now.information[np.ix_(index, index)], now.score[index]
+    ridge = 1e-9 * max(float(np.diag(information).max(initial=0.0)), 1e-300) * np.eye(len(index))
+    return float(score @ np.linalg.solve(information + ridge, score)) / 2
 
 
 def _free(model: ExactModel, *, tilt: bool, noise: bool) -> Bools:

@@ -31,8 +31,8 @@ def misfit(points: Floats, model: ExactModel, runs: range, together: float) -> f
 
     Notes
     -----
-    The score test: half the sum of each patch's squared score over its information, the score being the
-    derivative by a movement of the patch along its normal.
+    The score test: half the sum of each patch's squared score over its information, less what chance makes
+    of it; the score is the derivative by a movement of the patch along its normal.
     """
     breaks, sigma = model.stack.breaks, model.sigma
     total = 0.0
@@ -51,7 +51,7 @@ def misfit(points: Floats, model: ExactModel, runs: range, together: float) -> f
             lack = np.bincount(patch, score, count) - np.bincount(at, expected, count)
             least = INFORMATION * np.bincount(at, expected, count) / sigma
             information = np.maximum(np.bincount(patch, score**2, count), least)
-            total += float((lack**2 / np.maximum(information, 1e-300)).sum()) / 2
+            total += float((lack**2 / np.maximum(information, 1e-300) - together).sum()) / 2
     return total / together
 
 

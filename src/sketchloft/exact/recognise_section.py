@@ -28,6 +28,8 @@ BESIDE = 4.0
 """Blurs beside a contour within which points tell where the outline is."""
 CROWDED = 1.5
 """An outline that leaves the points so many times denser than its contour did has lost them."""
+HOPELESS = 150.0
+"""An outline that is so much worse than another before the noise is fitted is given up."""
 LATTICE = 40
 POLES = (8, 12, 20)
 WAVES = np.arange(2, 13)
@@ -71,9 +73,15 @@ def _best(points: Floats, ring: Floats, blur: float, together: float, *, hole: b
     """Find the best outline for one loop from the points beside it."""
     near, core, area = _beside(points, ring, BESIDE * blur, hole=hole)
     tried: list[tuple[float, Outline]] = []
+    rough = [-np.inf]
 
     def attempt(outline: Outline) -> float:
-        model, value = _fitted(near, _model(near, core, area, outline, 0.5 * blur, hole=hole), together)
+        start = _model(near, core, area, outline, 0.5 * blur, hole=hole)
+        at = np.column_stack([near, np.zeros(len(near))])
+        model, value = _settled(at, start, together)
+        rough.append(value)
+        if value > max(rough) - HOPELESS:
+            model, value = _sharpened(at, model, start, together)
         wall = model.stack.runs[0].walls[0]
         if isinstance(wall, Swept):
             tried.append((value, wall.outline))
@@ -161,15 +169,18 @@ def _model(
     )
 
 
-def _fitted(points: Floats, model: ExactModel, together: float) -> tuple[ExactModel, float]:
-    """Fit, and the evidence."""
-    at = np.column_stack([points, np.zeros(len(points))])
-    start = model.density.coefficients[0]
-    model, at, _ = climb(at, model, 5, caps=False)
-    model = fit_density(at, model, 1, caps=False)
-    model, at, _ = climb(at, model, 8, noise=True, caps=False, most=model.sigma)
-    model = fit_density(at, model, 1, caps=False)
-    crowded = model.density.coefficients[0] - start > np.log(CROWDED)
-    if crowded:  # it gave up most of the points
-        return model, -np.inf
-    return model, evidence(at, model, together)
+def _settled(points: Floats, model: ExactModel, together: float) -> tuple[ExactModel, float]:
+    """Fit at the noise that all outlines begin with, and the evidence."""
+    model, _, _ = climb(points, model, 5, caps=False)
+    model = fit_density(points, model, 1, caps=False)
+    return model, evidence(points, model, together)
+
+
+def _sharpened(
+    points: Floats, model: ExactModel, start: ExactModel, together: float
+) -> tuple[ExactModel, float]:
+    """Fit the noise, too, and the evidence; none for an outline that gave up most of the points."""
+    model, _, _ = climb(points, model, 8, noise=True, caps=False, most=model.sigma)
+    model = fit_density(points, model, 1, caps=False)
+    crowded = model.density.coefficients[0] - start.density.coefficients[0] > np.log(CROWDED)
+    return model, -np.inf if crowded else evidence(points, model, together)

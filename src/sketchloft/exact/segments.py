@@ -61,21 +61,17 @@ def cut(points: Floats, params: SegmentsParams, dispersion: float) -> tuple[Floa
     place = np.minimum(((z - low) / (high - low) * bins).astype(np.intp), bins - 1)
     count = np.bincount(place, minlength=bins).astype(float)
     t = (edges[:-1] + edges[1:]) / 2 / (high - low)
-    cost = _costs(t, *_counts(count), shortest=params.shortest)
+    values, weights = [count], [1 / np.maximum(_smooth(count, np.ones(bins)), 1.0)]
     x, y = points[:, 0], points[:, 1]
     for feature in (x, y, x * x, y * y, x * y):
         mean = np.bincount(place, feature, bins) / np.maximum(count, 1)
         square = np.bincount(place, feature**2, bins) / np.maximum(count, 1)
         spread = _smooth(np.maximum(square - mean**2, 0), count)
-        spread = np.maximum(spread, 1e-4 * float(spread.max()) + 1e-30)
-        cost += _costs(t, mean, count / spread, shortest=params.shortest)
+        values.append(mean)
+        weights.append(count / np.maximum(spread, 1e-4 * float(spread.max()) + 1e-30))
+    cost = _costs(t, np.array(values), np.array(weights), shortest=params.shortest)
     chain, best = cheapest_chain(cost / dispersion + params.price)
     return edges[chain], best
-
-
-def _counts(count: Floats) -> tuple[Floats, Floats]:
-    around = _smooth(count, np.ones(len(count)))
-    return count, 1 / np.maximum(around, 1.0)
 
 
 def _smooth(values: Floats, weights: Floats) -> Floats:
@@ -87,20 +83,29 @@ def _smooth(values: Floats, weights: Floats) -> Floats:
 
 
 def _costs(t: Floats, values: Floats, weights: Floats, shortest: int) -> Floats:
-    """(b + 1, b + 1) half the weighted squares left by a parabola over bins i to j - 1; inf where too few."""
+    """(b + 1, b + 1) half the weighted squares of features (f, b) left by parabolas over bins i to j - 1.
+
+    Each feature's are measured in what it leaves over short stretches; inf where there are too few bins.
+    """
     b = len(t)
     powers = np.stack([t**k for k in range(5)])
-    sums = np.concatenate([np.zeros((5, 1)), np.cumsum(weights * powers, axis=1)], axis=1)
-    right = np.concatenate([np.zeros((3, 1)), np.cumsum(weights * values * powers[:3], axis=1)], axis=1)
-    total = np.r_[0, np.cumsum(weights * values**2)]
+    sums = _summed(weights[:, None] * powers)
+    right = _summed((weights * values)[:, None] * powers[:3])
+    total = _summed((weights * values**2)[:, None])[:, 0]
     i, j = np.triu_indices(b + 1, shortest)
-    s, r = sums[:, j] - sums[:, i], right[:, j] - right[:, i]
-    matrix = np.moveaxis(s[np.add.outer(np.arange(3), np.arange(3))], 2, 0)
-    scale = 1e-9 * matrix[:, 0, 0][:, None, None] + 1e-12
-    best = np.linalg.solve(matrix + scale * np.eye(3), r.T[..., None])[..., 0]
-    left = (total[j] - total[i]) - np.einsum("ij,ji->i", best, r)
-    cost = np.full((b + 1, b + 1), np.inf)
-    cost[i, j] = 0.5 * np.maximum(left, 0)
+    s, r = sums[..., j] - sums[..., i], right[..., j] - right[..., i]
+    matrix = np.moveaxis(s[:, np.add.outer(np.arange(3), np.arange(3))], 3, 1)
+    scale = 1e-9 * matrix[..., 0, 0][..., None, None] + 1e-12
+    best = np.linalg.solve(matrix + scale * np.eye(3), np.moveaxis(r, 1, 2)[..., None])[..., 0]
+    left = (total[:, j] - total[:, i]) - np.einsum("fik,fki->fi", best, r)
+    cost = np.full((len(values), b + 1, b + 1), np.inf)
+    cost[:, i, j] = 0.5 * np.maximum(left, 0)
     window = max(b // WINDOWS, 8)
-    typical = np.median(2 * np.diagonal(cost, window)) / (window - 3)
-    return cost / max(1.0, float(typical))
+    typical = np.median(2 * np.diagonal(cost, window, 1, 2), axis=1) / (window - 3)
+    found: Floats = (cost / np.maximum(1.0, typical)[:, None, None]).sum(axis=0)
+    return found
+
+
+def _summed(values: Floats) -> Floats:
+    """Sums of values (f, k, b) before each bin, (f, k, b + 1)."""
+    return np.concatenate([np.zeros((*values.shape[:2], 1)), np.cumsum(values, axis=2)], axis=2)

@@ -10,7 +10,7 @@ from sketchloft.cloud import Floats
 from sketchloft.exact.expected import mass_nodes, wall_nodes
 from sketchloft.exact.fit import climb, fit_density
 from sketchloft.exact.likelihood import beside_walls, value_of
-from sketchloft.exact.model import ExactModel
+from sketchloft.exact.model import ExactModel, thicker
 
 __all__ = ["sharpened"]
 
@@ -20,6 +20,11 @@ SHELLS = 1.0
 """Noise at least, in expected empty shells V / (n S) of all parameters together: below that a free wall
 would follow single points."""
 BESIDE = 6.0
+MOST_BESIDE = 25_000
+"""Points beside the walls that are looked at: the sharper the noise, the nearer they are, so that in the
+end all that tell where a wall is are among them."""
+MOST_POINTS = 12_000
+"""Points that the density is fitted to."""
 
 
 def sharpened(points: Floats, model: ExactModel, *, tilt: bool) -> tuple[ExactModel, Floats, Floats]:
@@ -34,24 +39,35 @@ def sharpened(points: Floats, model: ExactModel, *, tilt: bool) -> tuple[ExactMo
         The rotation: new points = old points @ rotation.
     """
     floor = max(FLOOR, SHELLS * _shell(points, model))
-    best, highest = (model, points, np.eye(3)), -np.inf
     turn, sigma = np.eye(3), model.sigma
+    sample, every = _thinned(points, MOST_POINTS)
+    band = points
     while True:
-        model = fit_density(points, replace(model, sigma=sigma), 1)
-        near = points[beside_walls(points, model, BESIDE * sigma)]
-        model, _, rotation = climb(near, model, 6, tilt=tilt)
-        points, turn = points @ rotation, turn @ rotation
-        value = value_of(points, model)
-        if value <= highest:
+        before = model
+        model = thicker(fit_density(sample @ turn, thicker(replace(model, sigma=sigma), 1 / every), 1), every)
+        band = band[beside_walls(band @ turn, model, BESIDE * sigma)]
+        near, of = _thinned(band, MOST_BESIDE)
+        model, _, rotation = climb(near @ turn, thicker(model, 1 / of), 6, tilt=tilt)
+        worse = sigma < before.sigma and value_of(near @ turn @ rotation, model) <= value_of(
+            near @ turn, thicker(before, 1 / of)
+        )
+        if worse:
+            model = before
             break
-        best, highest = (model, points, turn), value
+        model, turn = thicker(model, of), turn @ rotation
         if sigma <= floor:
             break
         sigma = max(sigma / 2, floor)
-    model, points, turn = best
-    near = points[beside_walls(points, model, BESIDE * 1.5 * model.sigma)]
-    model, _, rotation = climb(near, model, 8, tilt=tilt, noise=True, least=floor)
-    return model, points @ rotation, turn @ rotation
+    near, of = _thinned(points[beside_walls(points @ turn, model, BESIDE * 1.5 * model.sigma)], MOST_BESIDE)
+    model, _, rotation = climb(near @ turn, thicker(model, 1 / of), 8, tilt=tilt, noise=True, least=floor)
+    turn = turn @ rotation
+    return thicker(model, of), points @ turn, turn
+
+
+def _thinned(points: Floats, most: int) -> tuple[Floats, int]:
+    """Every so many points, and how many."""
+    every = len(points) // most + 1
+    return points[::every], every
 
 
 def _shell(points: Floats, model: ExactModel) -> float:

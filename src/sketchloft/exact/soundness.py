@@ -6,8 +6,9 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.exact.model import ExactModel
-from sketchloft.outline.circle import Circle
-from sketchloft.outline.ellipse import Ellipse
+from sketchloft.outline.polygons import LineArc, Polygon
+from sketchloft.outline.rounded_polygon import RoundedPolygon
+from sketchloft.outline.spline_loop import SplineLoop
 from sketchloft.stack import Wall
 from sketchloft.wall.lofted import Lofted
 from sketchloft.wall.profile import ArcProfile, SplineProfile
@@ -16,6 +17,8 @@ from sketchloft.wall.swept import Swept
 
 __all__ = ["covers", "sound"]
 
+MAY_CROSS = (Polygon, LineArc, RoundedPolygon, SplineLoop)
+"""Outlines that may cross themselves."""
 LEVELS = 17
 """Heights of a run at which its sections are looked at."""
 
@@ -60,7 +63,7 @@ def _simple(wall: Wall, heights: Floats) -> bool:
     if isinstance(wall, Lofted):
         count = 4 * wall.poles.shape[1]
         rings = wall.ring(heights, np.arange(count) / count)
-    elif isinstance(wall, Swept) and not isinstance(wall.outline, (Circle, Ellipse)):
+    elif isinstance(wall, Swept) and isinstance(wall.outline, MAY_CROSS):
         rings = wall.outline.boundary(64).points[None]
     else:
         return True

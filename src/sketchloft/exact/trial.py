@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.exact.fit import climb, fit_density
+from sketchloft.exact.fit import climb, fit_density, promise
 from sketchloft.exact.joins import natural_joins
 from sketchloft.exact.likelihood import beside_walls, value_of
 from sketchloft.exact.model import ExactModel
@@ -20,6 +20,8 @@ BESIDE = 6.0
 STEPS = (2, 4)
 HOPELESS = 40.0
 """A change that is still so much worse after the first few steps is given up."""
+HOPE = 2.0
+"""How much more than the slopes promise a change may gain: they hold for small movements."""
 PATIENCE = 400.0
 """`HOPELESS` for a free wall, which starts from contours and has far to go."""
 SHARP = 0.006
@@ -43,11 +45,20 @@ class Change:
         The runs of it that are new.
     handicap : float
         What it must gain beside its price.
+    nested : bool
+        Whether the model before it is a special case of it, which it starts from.
     """
 
     model: ExactModel
     runs: range
     handicap: float = 0.0
+    nested: bool = False
+
+    @property
+    def key(self) -> tuple[object, ...]:
+        """The same for changes that start from the same numbers."""
+        kinds = tuple(wall.kind for run in self.model.stack.runs for wall in run.walls)
+        return kinds, self.runs, self.model.vector.tobytes(), self.model.stack.breaks.tobytes()
 
 
 def tried(
@@ -77,6 +88,10 @@ def tried(
         model, _, _ = climb(near, model, STEPS[1], noise=True, most=MOST_NOISE)
     count = len(points)
     least = worth(near, model, together, count) + change.handicap
+    if change.nested and HOPE * promise(near, candidate) / together < least - worth(
+        near, candidate, together, count
+    ):
+        return None
     wide = range(max(runs.start - 1, 0), min(runs.stop + 1, len(candidate.stack.runs)))
     for steps in STEPS:
         candidate, _, _ = climb(near, candidate, steps, runs=wide)

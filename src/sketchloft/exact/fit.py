@@ -38,6 +38,7 @@ def climb(
     caps: bool = True,
     least: float = 1e-5,
     most: float = np.inf,
+    enough: float = 0.5,
     runs: range | None = None,
 ) -> tuple[ExactModel, Floats, Floats]:
     """Climb the likelihood from a model by damped Newton steps with the scores' outer products.
@@ -56,6 +57,8 @@ def climb(
         The runs whose walls, and the breaks between them, move; the ends of the stack move with them.
     least, most : float
         Smallest and largest sigma.
+    enough : float
+        Gain of a step, in log likelihood, below which it is the last.
 
     Returns
     -------
@@ -91,7 +94,7 @@ def climb(
         gain = moved[3].value - now.value
         model, points, rotation, now = moved
         turn, damping = turn @ rotation, damping / 10
-        if gain < 0.02:
+        if gain < enough:
             break
     return model, points, turn
 

@@ -115,7 +115,11 @@ def _inside(
         if not gradient:
             continue
         for slot, values, farthest in part_slope:
-            slope[near[:, None], slot] += between[:, None] * values
+            columns = slice(slot[0], slot[-1] + 1) if (np.diff(slot) == 1).all() else slot
+            if len(near) == len(z):
+                slope[:, columns] += between[:, None] * values
+            else:
+                slope[near[:, None], slot] += between[:, None] * values
             reach[slot] = np.maximum(reach[slot], farthest)
         away = heights[[j, j + 1]] - z[near, None]
         bell = np.exp(-0.5 * (away / sigma) ** 2) / (sigma * np.sqrt(2 * np.pi))

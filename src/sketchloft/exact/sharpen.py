@@ -23,6 +23,8 @@ BESIDE = 6.0
 MOST_BESIDE = 25_000
 """Points beside the walls that are looked at: the sharper the noise, the nearer they are, so that in the
 end all that tell where a wall is are among them."""
+ENOUGH = 0.02
+"""Gain of a step, in log likelihood, that is not worth another."""
 MOST_POINTS = 12_000
 """Points that the density is fitted to."""
 
@@ -47,7 +49,7 @@ def sharpened(points: Floats, model: ExactModel, *, tilt: bool) -> tuple[ExactMo
         model = thicker(fit_density(sample @ turn, thicker(replace(model, sigma=sigma), 1 / every), 1), every)
         band = band[beside_walls(band @ turn, model, BESIDE * sigma)]
         near, of = _thinned(band, MOST_BESIDE)
-        model, _, rotation = climb(near @ turn, thicker(model, 1 / of), 6, tilt=tilt)
+        model, _, rotation = climb(near @ turn, thicker(model, 1 / of), 6, tilt=tilt, enough=ENOUGH)
         worse = sigma < before.sigma and value_of(near @ turn @ rotation, model) <= value_of(
             near @ turn, thicker(before, 1 / of)
         )
@@ -59,7 +61,9 @@ def sharpened(points: Floats, model: ExactModel, *, tilt: bool) -> tuple[ExactMo
             break
         sigma = max(sigma / 2, floor)
     near, of = _thinned(points[beside_walls(points @ turn, model, BESIDE * 1.5 * model.sigma)], MOST_BESIDE)
-    model, _, rotation = climb(near @ turn, thicker(model, 1 / of), 8, tilt=tilt, noise=True, least=floor)
+    model, _, rotation = climb(
+        near @ turn, thicker(model, 1 / of), 8, tilt=tilt, noise=True, least=floor, enough=ENOUGH
+    )
     turn = turn @ rotation
     return thicker(model, of), points @ turn, turn
 

@@ -14,7 +14,7 @@ from sketchloft.errors import ModelError, StageError
 from sketchloft.exact.coaxial import coaxial
 from sketchloft.exact.direction import Candidate, exact_direction
 from sketchloft.exact.dispersion import clump, dispersion
-from sketchloft.exact.evidence import improved
+from sketchloft.exact.evidence import improved, without_slivers
 from sketchloft.exact.first_stack import first_stack
 from sketchloft.exact.fit import climb, fit_density
 from sketchloft.exact.flush import flush
@@ -45,6 +45,8 @@ AT_LEAST = 0.004
 ROOM = 1.25
 SEARCH_POINTS = 12_000
 """The search looks at no more points; the fit looks at all."""
+SLIVER = 0.01
+"""Runs shorter than this are looked at again once the noise is known."""
 BESIDE = 8.0
 HOLLOW = 0.4
 """Share of a closed region that is empty inside from which on it is a skin."""
@@ -196,7 +198,11 @@ def _fitted(
     progress("fit")
     model = thicker(model, len(points) / len(sample))
     model, points, rotation = sharpened(points @ turn, model, tilt=tilt)
-    return flush(points, model, together), points, turn @ rotation
+    turn = turn @ rotation
+    model = thicker(model, len(sample) / len(points))
+    model = without_slivers(sample @ turn, model, together, SLIVER)
+    model = flush(sample @ turn, model, together)
+    return thicker(model, len(points) / len(sample)), points, turn
 
 
 def _candidates(points: Floats, params: ExactParams) -> tuple[Candidate, ...]:

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
+import numpy as np
+
 from sketchloft.cloud import Floats
 from sketchloft.exact.changes import merges, splits, swaps
 from sketchloft.exact.free_walls import lofted, splined
 from sketchloft.exact.model import ExactModel
 from sketchloft.exact.trial import Change, tried
 
-__all__ = ["improved"]
+__all__ = ["improved", "without_slivers"]
 
 ROUNDS = 2
 """How often all changes are looked through at most."""
@@ -42,6 +44,28 @@ def improved(points: Floats, model: ExactModel, together: float, *, lofts: bool 
         if model is before:
             break
     return model
+
+
+def without_slivers(points: Floats, model: ExactModel, together: float, length: float) -> ExactModel:
+    """Leave runs shorter than a length to their neighbours, if it pays at the noise that the points have.
+
+    Parameters
+    ----------
+    points : (n, 3) float array
+    model : ExactModel
+        Fitted.
+    together : float
+        How many of the points go together.
+    length : float
+    """
+    if (np.diff(model.stack.breaks) > length).all():
+        return model
+
+    def slivers(model: ExactModel) -> Iterator[Change]:
+        if (np.diff(model.stack.breaks) < length).any():
+            yield from merges(model)
+
+    return _through(points, model, together, slivers, set(), again=True)
 
 
 def _through(

@@ -26,8 +26,8 @@ HOPE = 2.0
 """How much more than the score test says a loft may gain: the test holds for small movements."""
 SPANS = (4, 7, 11)
 """Knot spans of the free profiles that are tried."""
-LOFTS = ((12, 2), (16, 4), (24, 4))
-"""Poles around and spans along of the free lofts that are tried."""
+LOFTS = (((12, 2), (16, 4), (24, 4)), ((16, 1), (24, 1)))
+"""Poles around and spans along of the free lofts that are tried, each list as long as it pays."""
 
 
 def splined(points: Floats, model: ExactModel, together: float) -> ExactModel:
@@ -66,27 +66,33 @@ def lofted(points: Floats, model: ExactModel, together: float) -> ExactModel:
         revolved = all(isinstance(run.walls[0], Revolved) for run in runs)
         free = len(runs) == 1 and isinstance(runs[0].walls[0], Lofted)
         if single and not revolved and not free and _promising(points, model, range(start, stop), together):
-            ends = float(model.stack.breaks[start]), float(model.stack.breaks[stop])
-            best: ExactModel | None = None
-            for around, spans in LOFTS:
-                wall = loft_start(points, ends, around, spans, together)
-                if wall is None:
-                    continue
-                change = with_runs(model, start, stop - 1, Run((wall,)))
-                found = Change(change, range(start, start + 1), GAIN)
-                better = tried(points, best or model, found, together, free=True)
-                if better is None and best is not None:
-                    break
-                best = better or best
+            best = _best_loft(points, model, range(start, stop), together)
             model = best or model
             stop = start + 1 if best is not None else stop
         start = stop
     return model
 
 
+def _best_loft(points: Floats, model: ExactModel, runs: range, together: float) -> ExactModel | None:
+    ends = float(model.stack.breaks[runs.start]), float(model.stack.breaks[runs.stop])
+    best: ExactModel | None = None
+    for sizes in LOFTS:
+        for around, spans in sizes:
+            wall = loft_start(points, ends, around, spans, together)
+            if wall is None:
+                continue
+            change = with_runs(model, runs.start, runs.stop - 1, Run((wall,)))
+            found = Change(change, range(runs.start, runs.start + 1), GAIN)
+            better = tried(points, best or model, found, together, free=True)
+            if better is None and best is not None:
+                break
+            best = better or best
+    return best
+
+
 def _promising(points: Floats, model: ExactModel, runs: range, together: float) -> bool:
     """Whether the points leave enough unexplained for the simplest loft to pay."""
-    around, spans = LOFTS[0]
+    around, spans = LOFTS[0][0]
     held = sum(len(wall.vector) for j in runs for wall in model.stack.runs[j].walls)
     more = 2 * around * (spans + Lofted.degree) - held
     return HOPE * misfit(points, model, runs, together) > price(more, len(points), together) + GAIN

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from sketchloft.cloud import Floats
 from sketchloft.exact.expected import mass_nodes, wall_nodes
@@ -13,6 +14,8 @@ from sketchloft.exact.likelihood import beside_walls, value_of
 from sketchloft.exact.model import ExactModel, thicker
 
 __all__ = ["sharpened"]
+
+Bools = NDArray[np.bool_]
 
 FLOOR = 5e-5
 """Smallest noise, as a share of the cloud's size."""
@@ -43,20 +46,20 @@ def sharpened(points: Floats, model: ExactModel, *, tilt: bool) -> tuple[ExactMo
     floor = max(FLOOR, SHELLS * _shell(points, model))
     turn, sigma = np.eye(3), model.sigma
     sample, every = _thinned(points, MOST_POINTS)
-    band = points
+    band, judged = points, _Judged(points, 1, points[:0], 0.0)
     while True:
         before = model
         model = thicker(fit_density(sample @ turn, thicker(replace(model, sigma=sigma), 1 / every), 1), every)
-        band = band[beside_walls(band @ turn, model, BESIDE * sigma)]
-        near, of = _thinned(band, MOST_BESIDE)
-        model, _, rotation = climb(near @ turn, thicker(model, 1 / of), 6, tilt=tilt, enough=ENOUGH)
-        worse = sigma < before.sigma and value_of(near @ turn @ rotation, model) <= value_of(
-            near @ turn, thicker(before, 1 / of)
+        beside = beside_walls(band @ turn, model, BESIDE * sigma)
+        band, near = band[beside], _judged(points, band, beside)
+        model, _, rotation = climb(
+            near.points @ turn, thicker(model, 1 / near.every), 6, tilt=tilt, enough=ENOUGH
         )
-        if worse:
+        model = thicker(model, near.every)
+        if sigma < before.sigma and _value(judged, model, turn @ rotation) <= _value(judged, before, turn):
             model = before
             break
-        model, turn = thicker(model, of), turn @ rotation
+        turn, judged = turn @ rotation, near
         if sigma <= floor:
             break
         sigma = max(sigma / 2, floor)
@@ -72,6 +75,30 @@ def _thinned(points: Floats, most: int) -> tuple[Floats, int]:
     """Every so many points, and how many."""
     every = len(points) // most + 1
     return points[::every], every
+
+
+@dataclass(frozen=True)
+class _Judged:
+    """Every so many of the points beside the walls, and some inside that stand for a number of points each."""
+
+    points: Floats
+    every: int
+    inside: Floats
+    each: float
+
+
+def _judged(points: Floats, band: Floats, beside: Bools) -> _Judged:
+    near, every = _thinned(band[beside], MOST_BESIDE)
+    inside, _ = _thinned(band[~beside], MOST_POINTS)
+    missing = len(points) - int(beside.sum())
+    return _Judged(near, every, inside, missing / every / max(len(inside), 1))
+
+
+def _value(judged: _Judged, model: ExactModel, turn: Floats) -> float:
+    """Log likelihood of points, turned."""
+    thin = thicker(model, 1 / judged.every)
+    inside = np.log(thin.density.at(judged.inside @ turn) + thin.stray)
+    return value_of(judged.points @ turn, thin) + judged.each * float(inside.sum())
 
 
 def _shell(points: Floats, model: ExactModel) -> float:

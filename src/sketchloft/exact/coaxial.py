@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from sketchloft.cloud import Floats
@@ -11,8 +13,11 @@ from sketchloft.exact.likelihood import beside_walls
 from sketchloft.exact.model import ExactModel, tied
 from sketchloft.exact.tilt import onto_z
 from sketchloft.exact.trial import worth
-from sketchloft.wall.profile import ArcProfile
+from sketchloft.outline.circle import Circle
+from sketchloft.stack import Run, Stack, Wall
+from sketchloft.wall.profile import ArcProfile, LineProfile
 from sketchloft.wall.revolved import Revolved
+from sketchloft.wall.swept import Swept
 
 __all__ = ["coaxial"]
 
@@ -35,6 +40,7 @@ def coaxial(
     (3, 3) float array
         The rotation: new points = old points @ rotation.
     """
+    model = _as_cylinders(model)
     places = [
         (j, i)
         for j, run in enumerate(model.stack.runs)
@@ -53,6 +59,20 @@ def coaxial(
     turned, count = turned @ rotation, len(points)
     pays = worth(turned, change, together, count) > worth(points, model, together, count)
     return (change, turned, turn @ rotation) if pays else still
+
+
+def _as_cylinders(model: ExactModel) -> ExactModel:
+    """The model with cylinders for circles that go straight up; their parameters are the same."""
+    runs = tuple(Run(tuple(_as_cylinder(wall) for wall in run.walls), run.holes) for run in model.stack.runs)
+    return replace(model, stack=Stack(model.stack.breaks, runs))
+
+
+def _as_cylinder(wall: Wall) -> Wall:
+    if not isinstance(wall, Swept) or not isinstance(wall.outline, Circle) or wall.free:
+        return wall
+    still = not (wall.taper or wall.bows or np.any(wall.drift))
+    profile = LineProfile(wall.height, wall.outline.radius, None)
+    return Revolved(wall.outline.centre, profile) if still else wall
 
 
 def _tangents(model: ExactModel) -> list[tuple[tuple[int, int, int], tuple[int, int, int]]]:

@@ -63,9 +63,9 @@ def sharpened(points: Floats, model: ExactModel, *, tilt: bool) -> tuple[ExactMo
         if sigma <= floor:
             break
         sigma = max(sigma / 2, floor)
-    near, of = _thinned(points[beside_walls(points @ turn, model, BESIDE * 1.5 * model.sigma)], MOST_BESIDE)
+    last, of = _thinned(points[beside_walls(points @ turn, model, BESIDE * 1.5 * model.sigma)], MOST_BESIDE)
     model, _, rotation = climb(
-        near @ turn, thicker(model, 1 / of), 8, tilt=tilt, noise=True, least=floor, enough=ENOUGH
+        last @ turn, thicker(model, 1 / of), 8, tilt=tilt, noise=True, least=floor, enough=ENOUGH
     )
     turn = turn @ rotation
     return thicker(model, of), points @ turn, turn
@@ -79,7 +79,7 @@ def _thinned(points: Floats, most: int) -> tuple[Floats, int]:
 
 @dataclass(frozen=True)
 class _Judged:
-    """Every so many of the points beside the walls, and some inside that stand for a number of points each."""
+    """Every so many of the points beside the walls, and some inside that each stand for a number."""
 
     points: Floats
     every: int

@@ -9,7 +9,7 @@ from sketchloft.exact.model import ExactModel
 from sketchloft.outline.polygons import LineArc, Polygon
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import SplineLoop
-from sketchloft.stack import Wall
+from sketchloft.stack import Run, Wall
 from sketchloft.wall.lofted import Lofted
 from sketchloft.wall.profile import ArcProfile, SplineProfile
 from sketchloft.wall.revolved import Revolved
@@ -19,6 +19,8 @@ __all__ = ["covers", "sound"]
 
 MAY_CROSS = (Polygon, LineArc, RoundedPolygon, SplineLoop)
 """Outlines that may cross themselves."""
+LEFT = 0.02
+"""Share of a section that its holes leave at least."""
 LEVELS = 17
 """Heights of a run at which its sections are looked at."""
 
@@ -35,9 +37,15 @@ def sound(model: ExactModel) -> bool:
             return False
         ends = np.linspace(breaks[j], breaks[j + 1], LEVELS)
         at = ends[LEVELS // 3 : -(LEVELS // 3)]  # a sphere may end before its break does
+        if run.holes and (run.area(at) < LEFT * sum(_outer(run, at))).any():
+            return False
         if any((wall.area(at) <= 0).any() or not _simple(wall, ends[:: LEVELS // 8]) for wall in run.walls):
             return False
     return True
+
+
+def _outer(run: Run, heights: Floats) -> list[Floats]:
+    return [wall.area(heights) for wall in run.walls[: len(run.walls) - run.holes]]
 
 
 def _ends_within(wall: Wall, model: ExactModel, j: int) -> bool:

@@ -40,7 +40,8 @@ def first_stack(
         margin = min(blur, (high - low) / 5)
         ends = float(low + margin), float(high - margin)
         inner = points[(points[:, 2] > ends[0]) & (points[:, 2] < ends[1])]
-        found = segment_run(inner, ends, sigma, together, density) if len(inner) >= FEWEST else None
+        thin = high - low < blur or len(inner) < FEWEST
+        found = None if thin else segment_run(inner, ends, sigma, together, density)
         if found is None:
             continue
         runs.append(found)

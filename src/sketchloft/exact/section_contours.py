@@ -17,6 +17,8 @@ SIGNIFICANT = 3.0
 """Logarithms of the number of points that a change of size must gain to be believed."""
 DRIFTING = 1.2
 """The same for a drift: a small one that is not there harms less than one that is missed."""
+STEEPEST = 2.0
+"""Largest drift: what moves sideways faster than this is to be cut along another direction."""
 HOLE = 25.0
 """Points that a hole lacks at least: smaller gaps come by chance."""
 PIECE = 0.03
@@ -68,7 +70,7 @@ def plan_view(points: Floats, together: float = 1.0) -> PlanView:
     coefficients = np.linalg.lstsq(line, points[:, :2], rcond=None)[0]
     spread = points[:, :2].var(axis=0)
     gain = ((points[:, :2] - centre) ** 2 - (points[:, :2] - line @ coefficients) ** 2).sum(axis=0) / spread
-    if gain.max() > DRIFTING / SIGNIFICANT * price:
+    if gain.max() > DRIFTING / SIGNIFICANT * price and np.hypot(*coefficients[1]) < STEEPEST:
         centre, drift = coefficients
     arm = points[:, :2] - centre - dz[:, None] * drift
     square = np.einsum("ij,ij->i", arm, arm)

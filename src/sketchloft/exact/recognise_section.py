@@ -30,6 +30,8 @@ CROWDED = 1.5
 """An outline that leaves the points so many times denser than its contour did has lost them."""
 HOPELESS = 150.0
 """An outline that is so much worse than another before the noise is fitted is given up."""
+RARE = 6.0
+"""Log odds against outlines that are drawn for want of a simpler one."""
 LATTICE = 40
 POLES = (8, 12, 20)
 WAVES = np.arange(2, 13)
@@ -82,6 +84,7 @@ def _best(points: Floats, ring: Floats, blur: float, together: float, *, hole: b
         rough.append(value)
         if value > max(rough) - HOPELESS:
             model, value = _sharpened(at, model, start, together)
+            value -= RARE if isinstance(outline, (LineArc, SplineLoop)) else 0.0
         wall = model.stack.runs[0].walls[0]
         if isinstance(wall, Swept):
             tried.append((value, wall.outline))

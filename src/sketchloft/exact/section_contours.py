@@ -19,8 +19,8 @@ DRIFTING = 1.2
 """The same for a drift: a small one that is not there harms less than one that is missed."""
 STEEPEST = 2.0
 """Largest drift: what moves sideways faster than this is to be cut along another direction."""
-HOLE = 25.0
-"""Points that a hole lacks at least: smaller gaps come by chance."""
+GAP = 25.0
+"""Points that a hole lacks, and that a piece holds, at least: fewer come by chance."""
 PIECE = 0.03
 """Share of the section's area that a piece of it covers at least."""
 
@@ -127,13 +127,14 @@ def contours(points: Floats, together: float = 1.0) -> tuple[list[Floats], list[
         return [], [], grid.blur
     outer_sign = np.sign(areas[np.argmax(np.abs(areas))])
     largest = float(np.abs(areas).max())
+    least = largest * max(PIECE, GAP * together / len(points))
     order = np.argsort(-np.abs(areas))
     outer, holes = [], []
     for i in order:
         ring = loops[i] if areas[i] > 0 else loops[i][::-1]
-        if np.sign(areas[i]) == outer_sign and abs(areas[i]) > PIECE * largest:
+        if np.sign(areas[i]) == outer_sign and abs(areas[i]) > least:
             outer.append(ring)
-        elif np.sign(areas[i]) != outer_sign and _missing(grid, ring, abs(float(areas[i]))) > HOLE * together:
+        elif np.sign(areas[i]) != outer_sign and _missing(grid, ring, abs(float(areas[i]))) > GAP * together:
             holes.append(ring)
     return outer, holes, grid.blur
 

@@ -25,7 +25,7 @@ ROUNDING = 1.5
 PRICES = (2.5, 5.0, 10.0)
 MOST_CORNERS = 24
 AROUND = 240
-REGULAR = (3, 5, 6, 7, 8, 9, 10, 12)
+REGULAR = (3, 5, 6, 8)
 """Sides of regular polygons that are looked for."""
 
 

@@ -45,6 +45,8 @@ AT_LEAST = 0.004
 ROOM = 1.25
 SEARCH_POINTS = 12_000
 """The search looks at no more points; the fit looks at all."""
+DIGITS = 6
+"""Of coordinates: what a unit, an origin or a turn leaves in the last digits must not change the model."""
 SLIVER = 0.01
 """Runs shorter than this are looked at again once the noise is known."""
 BESIDE = 8.0
@@ -148,7 +150,7 @@ def exact_body(
     else:
         candidates, vector = (), np.asarray(axis, dtype=float)
     frame = frame_along(vector, unit)
-    local = frame.to_local(unit)
+    local = np.round(frame.to_local(unit), DIGITS)
     progress("runs")
     sample = _sample(local)
     cuts, first, together = _start(sample, params)
@@ -208,7 +210,7 @@ def _fitted(
 def _candidates(points: Floats, params: ExactParams) -> tuple[Candidate, ...]:
     """Directions, found in the frame of the principal axes so that they turn with the cloud."""
     frame = principal_frame(points)
-    grid, together, kept = _seen(_sample(frame.to_local(points)))
+    grid, together, kept = _seen(_sample(np.round(frame.to_local(points), DIGITS)))
     mean = kept.mean(axis=0)
     grid = replace(grid, origin=grid.origin - mean)
     found = exact_direction(kept - mean, grid, params.segments, clump(together))

@@ -93,7 +93,7 @@ def expected_slope(model: ExactModel, nodes: list[WallNodes], *, caps: bool) -> 
 def _fan(spread: WallBoundary) -> tuple[Floats, Floats]:
     """Spread wall points over the sections that they enclose (Gauss's theorem in each section)."""
     at, areas = spread.points, spread.areas
-    centre = (areas @ at[:, :2]) / max(float(areas.sum()), 1e-300)
+    centre = at[:, :2].mean(axis=0)  # any point will do
     spoke = at[:, :2] - centre
     share = areas * np.einsum("ij,ij->i", spread.normals[:, :2], spoke) / 2
     x, w = RADIAL

@@ -13,7 +13,10 @@ from sketchloft.exact.model import ExactModel, model_of
 from sketchloft.exact.schwarz import evidence
 from sketchloft.exact.section_contours import contours
 from sketchloft.outline.candidates import chains, circle_of, ellipse_of, polygons, spline_of
+from sketchloft.outline.circle import Circle
+from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.outline import Outline
+from sketchloft.outline.placed_polygons import Rectangle, RoundedRectangle
 from sketchloft.outline.polygons import LineArc, Polygon, corner_areas
 from sketchloft.outline.spline_loop import SplineLoop
 from sketchloft.ring import ring_length
@@ -30,8 +33,9 @@ CROWDED = 1.5
 """An outline that leaves the points so many times denser than its contour did has lost them."""
 HOPELESS = 150.0
 """An outline that is so much worse than another before the noise is fitted is given up."""
+COMMON = (Circle, Ellipse, Rectangle, RoundedRectangle)
 RARE = 6.0
-"""Log odds against outlines that are drawn for want of a simpler one."""
+"""Log odds against other outlines, of which there are more to be taken for one by chance."""
 LATTICE = 40
 POLES = (8, 12, 20)
 WAVES = np.arange(2, 13)
@@ -84,7 +88,7 @@ def _best(points: Floats, ring: Floats, blur: float, together: float, *, hole: b
         rough.append(value)
         if value > max(rough) - HOPELESS:
             model, value = _sharpened(at, model, start, together)
-            value -= RARE if isinstance(outline, (LineArc, SplineLoop)) else 0.0
+            value -= 0.0 if isinstance(outline, COMMON) else RARE
         wall = model.stack.runs[0].walls[0]
         if isinstance(wall, Swept):
             tried.append((value, wall.outline))

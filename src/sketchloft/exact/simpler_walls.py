@@ -12,7 +12,7 @@ from sketchloft.outline.candidates import circle_of, ellipse_of, polygons
 from sketchloft.outline.circle import Circle
 from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.outline import Outline
-from sketchloft.outline.placed_polygons import Rectangle, RoundedRectangle
+from sketchloft.outline.placed_polygons import Rectangle, RegularPolygon, RoundedRectangle
 from sketchloft.outline.polygons import LineArc, Polygon, corner_areas
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import SplineLoop
@@ -89,7 +89,7 @@ def _form(profile: Profile) -> tuple[bool, bool]:
 
 def _outlines_like(outline: Outline) -> Iterator[Outline]:
     ring = outline.boundary(96).points
-    if isinstance(outline, (Ellipse, LineArc, SplineLoop)):
+    if isinstance(outline, (Ellipse, LineArc, SplineLoop, RegularPolygon)):
         yield circle_of(ring)
     if isinstance(outline, (LineArc, SplineLoop)):
         yield ellipse_of(ring)
@@ -98,7 +98,7 @@ def _outlines_like(outline: Outline) -> Iterator[Outline]:
     if isinstance(outline, RoundedPolygon):
         yield Polygon(outline.vertices)
     yield from _with_fewer_corners(outline)
-    if not isinstance(outline, (Rectangle, Circle, Ellipse)):
+    if not isinstance(outline, (Rectangle, Circle)):
         vertices = outline.vertices if isinstance(outline, (Polygon, RoundedPolygon)) else None
         polygon = None if vertices is None else Polygon(vertices)
         for other in polygons(ring, polygon, float(np.sqrt(outline.area)) * 0.05):

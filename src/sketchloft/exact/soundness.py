@@ -19,6 +19,8 @@ __all__ = ["covers", "sound"]
 
 MAY_CROSS = (Polygon, LineArc, RoundedPolygon, SplineLoop)
 """Outlines that may cross themselves."""
+FARTHEST = 1e4
+"""Parameters are below this, as the cloud is about 1 across."""
 LEFT = 0.02
 """Share of a section that its holes leave at least."""
 LEVELS = 17
@@ -28,7 +30,7 @@ LEVELS = 17
 def sound(model: ExactModel) -> bool:
     """Whether the breaks rise, and every wall encloses something and nowhere crosses itself."""
     breaks = model.stack.breaks
-    if not np.isfinite(model.vector).all() or not (np.diff(breaks) > 0).all():
+    if not (np.abs(model.vector) < FARTHEST).all() or not (np.diff(breaks) > 0).all():
         return False
     for j, run in enumerate(model.stack.runs):
         if not all(covers(wall, breaks[j], breaks[j + 1]) and _closes(wall) for wall in run.walls):

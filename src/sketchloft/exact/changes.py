@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -20,10 +21,10 @@ from sketchloft.wall.swept import Freedom, Swept
 
 __all__ = ["merges", "splits", "swaps"]
 
-SPLIT_SAMPLES = 41
+SPLIT_SAMPLES = 25
 """Heights of a profile at which it may be split."""
-SHORTEST = 5
-"""Samples that each part has at least."""
+SHORTEST = 4
+"""Samples less one that each part has at least."""
 TINY = 1e-12
 THIN = 1e-6
 """Half the thickness of what stands for a section."""
@@ -81,20 +82,28 @@ def _middle(wall: Wall, height: float) -> Floats:
 
 
 def splits(model: ExactModel) -> Iterator[Change]:
-    """Two runs of lines or arcs for a free profile, cut where they fit it best."""
+    """Three runs of lines or arcs, or two, for a free profile, cut where they fit it best."""
     for j, (run, low, high) in enumerate(model.stack.slabs()):
         wall = sole_profile(run)
         if wall is None or not isinstance(wall.profile, SplineProfile):
             continue
         z = np.linspace(low, high, SPLIT_SAMPLES)
         r = radius_at(wall.profile, z)[0]
-        options = []
-        for k in range(SHORTEST, SPLIT_SAMPLES - SHORTEST):
-            below, above = _closest(z[: k + 1], r[: k + 1]), _closest(z[k:], r[k:])
-            options.append((below[0] + above[0], k, below[1], above[1]))
-        _, k, first, second = min(options, key=lambda option: option[0])
-        walls = [replace(wall, profile=profile) for profile in (first, second)]
-        yield Change(with_split(model, j, float(z[k]), *walls), range(j, j + 2))
+        last = SPLIT_SAMPLES - 1
+        fits = {
+            (a, b): _closest(z[a : b + 1], r[a : b + 1])
+            for a in range(last)
+            for b in range(a + SHORTEST, last + 1)
+        }
+        inner = range(SHORTEST, last - SHORTEST + 1)
+        for cuts in (
+            [(0, k, m, last) for k in inner for m in inner if m >= k + SHORTEST],
+            [(0, k, last) for k in inner],
+        ):
+            best = min(cuts, key=lambda cut: sum(fits[pair][0] for pair in pairwise(cut)))
+            walls = [replace(wall, profile=fits[pair][1]) for pair in pairwise(best)]
+            heights = [float(z[k]) for k in best[1:-1]]
+            yield Change(with_split(model, j, heights, walls), range(j, j + len(walls)))
 
 
 def _closest(z: Floats, r: Floats) -> tuple[float, Profile]:

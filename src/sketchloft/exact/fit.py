@@ -38,7 +38,7 @@ def climb(
     caps: bool = True,
     least: float = 1e-5,
     most: float = np.inf,
-    enough: float = 0.5,
+    enough: float = 0.05,
     runs: range | None = None,
 ) -> tuple[ExactModel, Floats, Floats]:
     """Climb the likelihood from a model by damped Newton steps with the scores' outer products.

@@ -22,8 +22,8 @@ __all__ = ["lofted", "splined"]
 
 GAIN = 20.0
 """What a free wall must gain over a chain of lines and arcs."""
-HOPE = 2.0
-"""How much more than the score test says a loft may gain: the test holds for small movements."""
+HOPE = 5.0
+"""How much more a loft may gain than the misfit shows, which counts points where walls weigh them."""
 SPANS = (4, 7, 11)
 """Knot spans of the free profiles that are tried."""
 LOFTS = (((12, 2), (16, 4), (24, 4)), ((16, 1), (24, 1)))

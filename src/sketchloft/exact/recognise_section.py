@@ -16,7 +16,7 @@ from sketchloft.outline.candidates import chains, circle_of, ellipse_of, polygon
 from sketchloft.outline.circle import Circle
 from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.outline import Outline
-from sketchloft.outline.placed_polygons import Rectangle, RoundedRectangle
+from sketchloft.outline.placed_polygons import Rectangle
 from sketchloft.outline.polygons import LineArc, Polygon, corner_areas
 from sketchloft.outline.spline_loop import SplineLoop
 from sketchloft.ring import ring_length
@@ -33,7 +33,7 @@ CROWDED = 1.5
 """An outline that leaves the points so many times denser than its contour did has lost them."""
 HOPELESS = 150.0
 """An outline that is so much worse than another before the noise is fitted is given up."""
-COMMON = (Circle, Ellipse, Rectangle, RoundedRectangle)
+COMMON = (Circle, Ellipse, Rectangle)
 RARE = 6.0
 """Log odds against other outlines, of which there are more to be taken for one by chance."""
 LATTICE = 40

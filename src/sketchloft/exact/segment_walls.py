@@ -96,8 +96,12 @@ def _walls(
 ) -> list[Wall]:
     slanted = bool(np.any(plan.drift))
     _, first, _ = plan.growth
-    if isinstance(outline, Circle) and not slanted:
-        return _revolved(plan, outline, ends, changing=changing)
+    walls: list[Wall] = []
+    if isinstance(outline, Circle) and not twist:
+        # A density that changes across makes what is revolved look slanted.
+        walls = _revolved(plan, outline, ends, changing=changing)
+    if walls and not slanted:
+        return walls
     bow = _bow(plan)
 
     def swept(*free: Freedom, taper: float = 0.0, bow: float = 0.0) -> Swept:
@@ -106,7 +110,7 @@ def _walls(
             free = (*free, "twist")
         return Swept(outline, plan.height, plan.centre, drift, taper, twist, free, bow)
 
-    walls: list[Wall] = [swept()]
+    walls.append(swept())
     if slanted:
         walls.append(swept("drift"))
     if changing:

@@ -89,7 +89,7 @@ def _form(profile: Profile) -> tuple[bool, bool]:
 
 def _outlines_like(outline: Outline) -> Iterator[Outline]:
     ring = outline.boundary(96).points
-    if isinstance(outline, (Ellipse, LineArc, SplineLoop, RegularPolygon)):
+    if isinstance(outline, (Ellipse, LineArc, SplineLoop, RegularPolygon, RoundedRectangle)):
         yield circle_of(ring)
     if isinstance(outline, (LineArc, SplineLoop)):
         yield ellipse_of(ring)

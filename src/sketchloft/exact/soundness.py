@@ -15,7 +15,7 @@ from sketchloft.wall.profile import ArcProfile, SplineProfile
 from sketchloft.wall.revolved import Revolved
 from sketchloft.wall.swept import Swept
 
-__all__ = ["covers", "sound"]
+__all__ = ["covers", "detached", "sound"]
 
 MAY_CROSS = (Polygon, LineArc, RoundedPolygon, SplineLoop)
 """Outlines that may cross themselves."""
@@ -35,8 +35,6 @@ def sound(model: ExactModel) -> bool:
     for j, run in enumerate(model.stack.runs):
         if not all(covers(wall, breaks[j], breaks[j + 1]) and _closes(wall) for wall in run.walls):
             return False
-        if any(_ends_within(wall, model, j) for wall in run.walls):
-            return False
         ends = np.linspace(breaks[j], breaks[j + 1], LEVELS)
         at = ends[LEVELS // 3 : -(LEVELS // 3)]  # a sphere may end before its break does
         if run.holes and (run.area(at) < LEFT * sum(_outer(run, at))).any():
@@ -48,6 +46,11 @@ def sound(model: ExactModel) -> bool:
 
 def _outer(run: Run, heights: Floats) -> list[Floats]:
     return [wall.area(heights) for wall in run.walls[: len(run.walls) - run.holes]]
+
+
+def detached(model: ExactModel) -> int:
+    """Number of walls that end before a break that other runs lie beyond, so that these hang on nothing."""
+    return sum(_ends_within(wall, model, j) for j, run in enumerate(model.stack.runs) for wall in run.walls)
 
 
 def _ends_within(wall: Wall, model: ExactModel, j: int) -> bool:

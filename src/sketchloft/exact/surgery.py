@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -25,11 +26,11 @@ def with_run(model: ExactModel, index: int, run: Run) -> ExactModel:
     return with_runs(model, index, index, run)
 
 
-def with_split(model: ExactModel, index: int, height: float, below: Wall, above: Wall) -> ExactModel:
-    """Replace one run by two of one wall each, with a break between them."""
-    breaks = np.insert(model.stack.breaks, index + 1, height)
-    runs = (*model.stack.runs[:index], Run((below,)), Run((above,)), *model.stack.runs[index + 1 :])
-    return _rebuilt(model, Stack(breaks, runs))
+def with_split(model: ExactModel, index: int, heights: Sequence[float], walls: Sequence[Wall]) -> ExactModel:
+    """Replace one run by several of one wall each, with breaks at heights between them."""
+    breaks = np.insert(model.stack.breaks, index + 1, heights)
+    split = tuple(Run((wall,)) for wall in walls)
+    return _rebuilt(model, Stack(breaks, (*model.stack.runs[:index], *split, *model.stack.runs[index + 1 :])))
 
 
 def without_run(model: ExactModel, index: int, heir: int | None) -> ExactModel:

@@ -12,6 +12,7 @@ from sketchloft.exact.joins import natural_joins
 from sketchloft.exact.likelihood import beside_walls, value_of
 from sketchloft.exact.model import ExactModel
 from sketchloft.exact.schwarz import price
+from sketchloft.exact.soundness import detached
 
 __all__ = ["MOST_NOISE", "Change", "tried", "worth"]
 
@@ -30,6 +31,8 @@ MOST_NOISE = 0.012
 """Largest noise that is believed, as a share of the size; more is a wall in the wrong place."""
 SHORT = 8.0
 """Runs shorter than so many noise deviations are taken for noise unless they gain a lot."""
+DETACHED = 300.0
+"""What a wall must gain that does not reach the run beside it."""
 SHORTNESS = 12.0
 """What a run of no length at all must gain."""
 
@@ -99,7 +102,9 @@ def tried(
             return None
         if free:
             candidate = fit_density(points, candidate, 1)
-            candidate, _, _ = climb(near, candidate, steps, runs=wide, noise=True, most=MOST_NOISE)
+            candidate, _, _ = climb(
+                near, candidate, steps, runs=wide, noise=True, most=MOST_NOISE, enough=0.05
+            )
     candidate = natural_joins(candidate)
     return candidate if worth(near, candidate, together, count) > least else None
 
@@ -109,6 +114,7 @@ def worth(points: Floats, model: ExactModel, together: float, count: int) -> flo
     lengths = np.diff(model.stack.breaks)
     short = np.maximum(1 - lengths / (SHORT * model.sigma), 0.0)
     runs = len(lengths) * float(np.log(count / together)) + SHORTNESS * float(short.sum())
+    runs += DETACHED * detached(model)
     return value_of(points, model) / together - (price(model.parameters, count, together) + runs)
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.exact.density import Density
+from sketchloft.exact.dispersion import clump
 from sketchloft.exact.fit import climb, fit_density
 from sketchloft.exact.model import ExactModel, model_of
 from sketchloft.exact.recognise_section import SectionShape, recognise_section
@@ -48,7 +49,7 @@ def segment_run(
     density : Density
         Inside, about.
     """
-    plan = plan_view(points, together)
+    plan = plan_view(points, clump(together))
     twist = twist_of(plan, points[:, 2] - plan.height)
     if twist:
         plan = untwisted(plan, points[:, 2] - plan.height, twist)

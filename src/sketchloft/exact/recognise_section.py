@@ -15,7 +15,7 @@ from sketchloft.exact.section_contours import contours
 from sketchloft.outline.candidates import chains, circle_of, ellipse_of, polygons, spline_of
 from sketchloft.outline.circle import Circle
 from sketchloft.outline.ellipse import Ellipse
-from sketchloft.outline.outline import Outline
+from sketchloft.outline.outline import Arc, Outline
 from sketchloft.outline.placed_polygons import Rectangle
 from sketchloft.outline.polygons import LineArc, Polygon, corner_areas
 from sketchloft.outline.spline_loop import SplineLoop
@@ -35,7 +35,10 @@ HOPELESS = 150.0
 """An outline that is so much worse than another before the noise is fitted is given up."""
 COMMON = (Circle, Ellipse, Rectangle)
 RARE = 6.0
-"""Log odds against other outlines, of which there are more to be taken for one by chance."""
+"""Log odds against other outlines of up to six edges, of which there are more to be taken for one by chance;
+one more for each further line, two for each arc."""
+LAST = 12.0
+"""Log odds against splines, which are drawn for want of anything else."""
 LATTICE = 40
 POLES = (8, 12, 20)
 WAVES = np.arange(2, 13)
@@ -88,7 +91,7 @@ def _best(points: Floats, ring: Floats, blur: float, together: float, *, hole: b
         rough.append(value)
         if value > max(rough) - HOPELESS:
             model, value = _sharpened(at, model, start, together)
-            value -= 0.0 if isinstance(outline, COMMON) else RARE
+            value -= _rarity(outline)
         wall = model.stack.runs[0].walls[0]
         if isinstance(wall, Swept):
             tried.append((value, wall.outline))
@@ -105,12 +108,14 @@ def _best(points: Floats, ring: Floats, blur: float, together: float, *, hole: b
     polygon = next((outline for outline in cut if isinstance(outline, Polygon)), None)
     for outline in polygons(ring, polygon, blur):
         attempt(outline)
-    value, outline = max(tried, key=lambda found: found[0])
+    plain = [found for found in tried if isinstance(found[1], Polygon)]
+    value, outline = max(plain or tried, key=lambda found: found[0])
     while isinstance(outline, Polygon) and len(outline.vertices) > 3:
         simpler = attempt(_simpler(outline))
         if simpler < value:
             break
         value, outline = tried[-1]
+    outline = max(tried, key=lambda found: found[0])[1]
     curved = isinstance(outline, (LineArc, SplineLoop))
     for poles in POLES[1:] if curved else ():
         attempt(spline_of(ring, poles))
@@ -130,6 +135,14 @@ def _even(near: Floats, outline: Outline, blur: float, together: float) -> bool:
     angles = np.arctan2(arms[:, 1], arms[:, 0])
     powers = np.abs(np.exp(1j * WAVES[:, None] * angles).sum(axis=1)) ** 2 / max(len(angles), 1)
     return bool((powers < EVEN * together).all())
+
+
+def _rarity(outline: Outline) -> float:
+    """Log odds against an outline before the points are seen."""
+    if isinstance(outline, SplineLoop):
+        return LAST
+    edges = sum(2.0 if isinstance(edge, Arc) else 1.0 for edge in outline.edges())
+    return 0.0 if isinstance(outline, COMMON) else max(RARE, edges)
 
 
 def _simpler(polygon: Polygon) -> Polygon:

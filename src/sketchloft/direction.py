@@ -10,6 +10,7 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.errors import UsageError
+from sketchloft.frame import principal_axes
 
 __all__ = ["Direction", "DirectionParams", "parse_axis", "slicing_direction"]
 
@@ -113,9 +114,7 @@ def slicing_direction(points: Floats, params: DirectionParams) -> Direction:
         vector = np.array(params.axis, dtype=np.float64)
         return Direction(vector / np.linalg.norm(vector), np.zeros((0, 3)), np.zeros(0))
     sample = points[:: -(-len(points) // SAMPLE)]
-    _, principal = np.linalg.eigh(sample.T @ sample)
-    principal = principal.T * np.where(((sample @ principal) ** 3).sum(axis=0) < 0, -1.0, 1.0)[:, None]
-    candidates = np.concatenate([np.eye(3), principal])
+    candidates = np.concatenate([np.eye(3), principal_axes(sample)])
     targets = np.array([_target(sample, vector) for vector in candidates])
     extents = np.ptp(sample @ candidates.T, axis=0)
     equal = np.flatnonzero(targets <= targets.min() + TIE / np.sqrt(len(sample)))

@@ -8,7 +8,7 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 
-__all__ = ["Frame", "frame_along", "principal_frame"]
+__all__ = ["Frame", "frame_along", "principal_axes", "principal_frame"]
 
 
 @dataclass(frozen=True)
@@ -66,12 +66,17 @@ def frame_along(direction: Floats, points: Floats) -> Frame:
     return Frame(np.stack([x, np.cross(z, x), z]))
 
 
-def principal_frame(points: Floats) -> Frame:
-    """Frame of the principal axes of points (n, 3) about their centre, the longest first.
+def principal_axes(points: Floats) -> Floats:
+    """Principal axes (3, 3) of points (n, 3) about their centre, in rows, the shortest first.
 
     An axis has no sign of its own; its third moment gives it one that turns with the cloud.
     """
     _, vectors = np.linalg.eigh(points.T @ points)
-    axes = vectors.T[::-1]
-    axes = axes * np.where(((points @ axes.T) ** 3).sum(axis=0) < 0, -1.0, 1.0)[:, None]
-    return Frame(np.stack([axes[0], axes[1], np.cross(axes[0], axes[1])]))
+    signs = np.where(((points @ vectors) ** 3).sum(axis=0) < 0, -1.0, 1.0)
+    return np.asarray(vectors.T * signs[:, None])
+
+
+def principal_frame(points: Floats) -> Frame:
+    """Right-handed frame of the principal axes of points (n, 3) about their centre, the longest first."""
+    _, second, first = principal_axes(points)
+    return Frame(np.stack([first, second, np.cross(first, second)]))

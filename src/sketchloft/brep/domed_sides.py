@@ -26,23 +26,24 @@ def domed_sides(wall: Swept, low: float, high: float) -> tuple[list[Side], list[
     parameter; a face is the tensor product of these and of the outline's rational curve.
     """
     meridian = _meridian(wall, low, high)
+    along = _weights(meridian)
     sides, posts = [], []
     for edge in wall.outline.edges():
         curve = nurbs_of(edge)
-        around = np.ones(len(curve.poles)) if curve.weights is None else curve.weights
+        around = _weights(curve)
         poles = _carried(wall, curve.poles, meridian.poles)
-        weights = np.outer(_weights(meridian), around)
+        weights = np.outer(along, around)
         skin = SkinSurface(poles, curve.knots, meridian.knots, curve.degree, meridian.degree, weights)
         u, v = ((float(knots[0]), float(knots[-1])) for knots in (curve.knots, meridian.knots))
         rims = [bspline_curve(poles[i], around, curve.knots, curve.degree) for i in (0, -1)]
         sides.append(Side(bspline_surface(skin), u, v, CurvePart(rims[0], *u), CurvePart(rims[1], *u)))
-        post = bspline_curve(poles[:, 0], _weights(meridian), meridian.knots, meridian.degree)
+        post = bspline_curve(poles[:, 0], along, meridian.knots, meridian.degree)
         posts.append(CurvePart(post, *v))
     return sides, posts
 
 
-def _weights(meridian: Nurbs) -> Floats:
-    return np.ones(len(meridian.poles)) if meridian.weights is None else meridian.weights
+def _weights(curve: Nurbs) -> Floats:
+    return np.ones(len(curve.poles)) if curve.weights is None else curve.weights
 
 
 def _meridian(wall: Swept, low: float, high: float) -> Nurbs:

@@ -77,7 +77,7 @@ def _span(wall: Swept, low: float, high: float) -> tuple[float, float, tuple[boo
     """Where the wall starts and ends, and whether it does so in its tip."""
     below, above = wall.tips()
     is_tip = below > low - MEET, above < high + MEET
-    return max(low, below) if not is_tip[0] else below, min(high, above) if not is_tip[1] else above, is_tip
+    return (below if is_tip[0] else low), (above if is_tip[1] else high), is_tip
 
 
 def _without_tips(side: Side, tips: tuple[bool, bool]) -> Side:

@@ -67,18 +67,12 @@ def _slanted(model: ExactModel, heir: int, other: int) -> Run | None:
         if wall.free:
             slanted.append(replace(wall, free=free))
             continue
-        start, end = _middle(wall, here), _middle(beyond, there)
+        start, end = (w.boundary(z - THIN, z + THIN, 48).centre for w, z in ((wall, here), (beyond, there)))
         areas = [max(float(w.area(np.array([z]))[0]), TINY) for w, z in ((wall, here), (beyond, there))]
         growth = np.sqrt(areas[1] / areas[0]) - 1
         drift, taper = (end - start) / (there - here), float(growth) / (there - here)
         slanted.append(replace(wall, pivot=start, drift=drift, taper=taper, height=here, free=free))
     return Run(tuple(slanted), model.stack.runs[heir].holes)
-
-
-def _middle(wall: Wall, height: float) -> Floats:
-    """Centre (2,) of the wall's section at a height."""
-    spread = wall.boundary(height - THIN, height + THIN, 48)
-    return np.asarray(spread.areas @ spread.points[:, :2] / spread.areas.sum())
 
 
 def splits(model: ExactModel) -> Iterator[Change]:

@@ -11,11 +11,11 @@ from sketchloft.exact.fit import climb
 from sketchloft.exact.joins import natural_joins
 from sketchloft.exact.likelihood import beside_walls
 from sketchloft.exact.model import ExactModel, tied
+from sketchloft.exact.simpler_walls import as_revolved
 from sketchloft.exact.tilt import onto_z
 from sketchloft.exact.trial import worth
-from sketchloft.outline.circle import Circle
 from sketchloft.stack import Run, Stack, Wall
-from sketchloft.wall.profile import ArcProfile, LineProfile
+from sketchloft.wall.profile import ArcProfile
 from sketchloft.wall.revolved import Revolved
 from sketchloft.wall.swept import Swept
 
@@ -68,11 +68,7 @@ def _as_cylinders(model: ExactModel) -> ExactModel:
 
 
 def _as_cylinder(wall: Wall) -> Wall:
-    if not isinstance(wall, Swept) or not isinstance(wall.outline, Circle) or wall.free:
-        return wall
-    still = not (wall.taper or wall.bows or np.any(wall.drift))
-    profile = LineProfile(wall.height, wall.outline.radius, None)
-    return Revolved(wall.outline.centre, profile) if still else wall
+    return as_revolved(wall) if isinstance(wall, Swept) and not wall.free else wall
 
 
 def _tangents(model: ExactModel) -> list[tuple[tuple[int, int, int], tuple[int, int, int]]]:

@@ -11,7 +11,7 @@ from sketchloft.exact.model import ExactModel
 from sketchloft.stack import Run
 from sketchloft.wall.foot import WallBoundary
 
-__all__ = ["WallNodes", "expected_points", "expected_slope", "mass_nodes", "wall_nodes"]
+__all__ = ["WallNodes", "empty_shell", "expected_points", "expected_slope", "mass_nodes", "wall_nodes"]
 
 NODES = 120
 """Points per wall to integrate the density with."""
@@ -88,6 +88,14 @@ def expected_slope(model: ExactModel, nodes: list[WallNodes], *, caps: bool) -> 
             if caps or 0 < k < len(breaks) - 1:
                 slope[walls + k] += sign * _section_mass(model, run, float(breaks[k]))
     return slope
+
+
+def empty_shell(model: ExactModel, count: int) -> float:
+    """Expected width V / (n S) of the empty shell that so many points leave inside the walls."""
+    nodes = wall_nodes(model)
+    _, volumes = mass_nodes(model, nodes)
+    surface = sum(float(node.spread.areas.sum()) for node in nodes)
+    return float(volumes.sum()) / (count * surface)
 
 
 def _fan(spread: WallBoundary) -> tuple[Floats, Floats]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.exact.expected import mass_nodes, wall_nodes
+from sketchloft.exact.expected import empty_shell
 from sketchloft.exact.likelihood import beside_walls, value_of
 from sketchloft.exact.model import ExactModel, model_of
 from sketchloft.outline.outline import Segment
@@ -22,6 +22,9 @@ NOISES, SHELLS = 4.0, 100.0
 BESIDE = 8.0
 FLAT = 0.05
 """Sine of the turn at a corner below which it is not known where the sides meet."""
+
+Line = tuple[Floats, float]
+"""Unit normal n and offset c: the points x with n . x = c."""
 
 
 @dataclass(frozen=True)
@@ -45,10 +48,11 @@ class Side:
     height: float
 
     @property
-    def normal(self) -> Floats:
-        """(2,) unit normal."""
+    def line(self) -> Line:
+        """The line that it lies on."""
         along = self.end - self.start
-        return np.array([along[1], -along[0]]) / np.hypot(*along)
+        normal = np.array([along[1], -along[0]]) / np.hypot(*along)
+        return normal, float(normal @ self.start)
 
 
 def flush(points: Floats, model: ExactModel, together: float) -> ExactModel:
@@ -69,11 +73,12 @@ def flush(points: Floats, model: ExactModel, together: float) -> ExactModel:
     Schwarz's criterion.
     """
     sides = [side for j in range(len(model.stack.runs)) for side in _sides(model, j)]
+    reach = NOISES * model.sigma + SHELLS * empty_shell(model, len(points))
     pairs = [
         (a, b)
         for a, one in enumerate(sides)
         for b, other in enumerate(sides)
-        if other.run == one.run + 1 and _near(one, other, _reach(points, model))
+        if other.run == one.run + 1 and _near(one, other, reach)
     ]
     near = points[beside_walls(points, model, BESIDE * model.sigma)]
     value = value_of(near, model)
@@ -106,21 +111,14 @@ def _is_prism(wall: Swept) -> bool:
     return not moves and all(isinstance(edge, Segment) for edge in wall.outline.edges())
 
 
-def _reach(points: Floats, model: ExactModel) -> float:
-    nodes = wall_nodes(model)
-    surface = sum(float(node.spread.areas.sum()) for node in nodes)
-    volume = float(mass_nodes(model, nodes)[1].sum())
-    return NOISES * model.sigma + SHELLS * volume / (len(points) * surface)
-
-
 def _near(one: Side, other: Side, reach: float) -> bool:
     """Whether two sides face the same way, in one plane and beside each other."""
     along = one.end - one.start
     length = float(np.hypot(*along))
     ends = np.array([other.start, other.end]) - one.start
     share = np.sort(ends @ along / length**2)
-    apart = np.abs(ends @ one.normal)
-    return bool(one.normal @ other.normal > 0 and apart.max() < reach and share[1] > 0 and share[0] < 1)
+    apart = np.abs(ends @ one.line[0])
+    return bool(one.line[0] @ other.line[0] > 0 and apart.max() < reach and share[1] > 0 and share[0] < 1)
 
 
 def _joined(model: ExactModel, sides: list[Side], pairs: list[tuple[int, int]]) -> ExactModel | None:
@@ -128,55 +126,42 @@ def _joined(model: ExactModel, sides: list[Side], pairs: list[tuple[int, int]]) 
     group = np.arange(len(sides))
     for a, b in pairs:
         group[group == group[b]] = group[a]
-    lines = {}
-    for name in set(group[[k for pair in pairs for k in pair]].tolist()):
-        lines[name] = _common([sides[k] for k in np.flatnonzero(group == name)])
-    found = {(side.run, side.wall, side.edge): lines.get(int(group[k])) for k, side in enumerate(sides)}
-    runs = []
-    for j, run in enumerate(model.stack.runs):
-        walls: list[Wall] = []
-        for i, wall in enumerate(run.walls):
-            mine = [
-                found.get((j, i, k))
-                for k in range(len(wall.outline.edges()) if isinstance(wall, Swept) else 0)
-            ]
-            if any(line is not None for line in mine) and isinstance(wall, Swept):
-                polygon = _polygon(wall, mine)
-                if polygon is None:
-                    return None
-                walls.append(replace(wall, outline=polygon))
-            else:
-                walls.append(wall)
-        runs.append(Run(tuple(walls), run.holes))
-    fresh = model_of(
-        Stack(model.stack.breaks, tuple(runs)), model.sigma, model.density, model.stray, model.space
+    joined = set(group[[k for pair in pairs for k in pair]].tolist())
+    common = {name: _common([sides[k] for k in np.flatnonzero(group == name)]) for name in joined}
+    lines: dict[tuple[int, int], list[Line]] = {}
+    for side, name in zip(sides, group.tolist(), strict=True):
+        lines.setdefault((side.run, side.wall), []).append(common.get(name, side.line))
+    moved = {(sides[k].run, sides[k].wall) for k in np.flatnonzero(np.isin(group, list(joined)))}
+    polygons = {place: _polygon(lines[place]) for place in moved}
+    if None in polygons.values():
+        return None
+    runs = tuple(
+        Run(tuple(_on(wall, polygons.get((j, i))) for i, wall in enumerate(run.walls)), run.holes)
+        for j, run in enumerate(model.stack.runs)
     )
+    fresh = model_of(Stack(model.stack.breaks, runs), model.sigma, model.density, model.stray, model.space)
     return replace(fresh, joins=model.joins, core=model.core)
 
 
-Line = tuple[Floats, float]
-"""Unit normal n and offset c: the points x with n . x = c."""
+def _on(wall: Wall, polygon: Polygon | None) -> Wall:
+    """The wall upon a polygon, or as it was."""
+    return wall if polygon is None or not isinstance(wall, Swept) else replace(wall, outline=polygon)
 
 
 def _common(sides: list[Side]) -> Line:
     lengths = np.array([float(np.hypot(*(side.end - side.start))) for side in sides])
     weights = lengths * [side.height for side in sides]
     # A side says where its direction is with the cube of its length.
-    normal = (weights * lengths**2) @ np.array([side.normal for side in sides])
+    normal = (weights * lengths**2) @ np.array([side.line[0] for side in sides])
     normal /= np.hypot(*normal)
     middles = np.array([(side.start + side.end) / 2 for side in sides])
     return normal, float(weights @ (middles @ normal) / weights.sum())
 
 
-def _polygon(wall: Swept, lines: list[Line | None]) -> Polygon | None:
-    """Polygon of a wall's sides, some of them moved to lines."""
-    edges = [edge for edge in wall.outline.edges() if isinstance(edge, Segment)]
-    own = [Side(0, 0, 0, edge.start, edge.end, 1.0) for edge in edges]
-    planes = [
-        line or (side.normal, float(side.normal @ side.start)) for line, side in zip(lines, own, strict=True)
-    ]
+def _polygon(lines: list[Line]) -> Polygon | None:
+    """Polygon with its sides on lines, in their order; None where two neighbours hardly meet."""
     vertices = []
-    for (n0, c0), (n1, c1) in zip(planes[-1:] + planes[:-1], planes, strict=True):
+    for (n0, c0), (n1, c1) in zip(lines[-1:] + lines[:-1], lines, strict=True):
         matrix = np.array([n0, n1])
         if abs(float(np.linalg.det(matrix))) < FLAT:
             return None

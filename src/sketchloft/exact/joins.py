@@ -8,12 +8,12 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.exact.model import ExactModel, Join
-from sketchloft.stack import Run
+from sketchloft.stack import Run, Wall
 from sketchloft.wall.profile import ArcProfile
 from sketchloft.wall.revolved import Revolved, radius_at
 from sketchloft.wall.swept import Swept
 
-__all__ = ["crossing", "joined", "natural_joins", "sole_profile"]
+__all__ = ["crossing", "joined", "natural_joins", "poles", "sole_profile"]
 
 CLOSE = 4.0
 """Walls that come this near to each other at a break, or to the axis at an end, in noise deviations, meet."""
@@ -76,17 +76,19 @@ def _height(model: ExactModel, k: int, join: str) -> float | None:
     return None
 
 
+def poles(wall: Wall) -> tuple[float, float]:
+    """Heights between which a sphere or a dome lies; infinite for other walls."""
+    if isinstance(wall, Swept) and wall.bows:
+        return wall.tips()
+    if isinstance(wall, Revolved) and isinstance(wall.profile, ArcProfile) and wall.profile.offset is None:
+        return wall.profile.height - wall.profile.radius, wall.profile.height + wall.profile.radius
+    return -np.inf, np.inf
+
+
 def _pole(run: Run, side: int) -> float | None:
     """Where the wall of a run, if it has one only, meets its axis as a sphere or a dome does."""
-    wall = run.walls[0]
-    if len(run.walls) > 1:
-        return None
-    if isinstance(wall, Swept) and wall.bows:
-        tip = wall.tips()[side > 0]
-        return tip if np.isfinite(tip) else None
-    if isinstance(wall, Revolved) and isinstance(wall.profile, ArcProfile) and wall.profile.offset is None:
-        return wall.profile.height + side * wall.profile.radius
-    return None
+    pole = poles(run.walls[0])[side > 0]
+    return pole if len(run.walls) == 1 and np.isfinite(pole) else None
 
 
 def sole_profile(run: Run) -> Revolved | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
@@ -46,17 +47,16 @@ def misfit(points: Floats, model: ExactModel, runs: range, together: float) -> f
         low, high = float(breaks[j]), float(breaks[j + 1])
         inner = points[(points[:, 2] > low) & (points[:, 2] < high)]
         for wall in model.stack.runs[j].walls:
+            patches = _patches(wall, low, high)
             per_width = np.zeros(AROUND * ALONG)
             for bottom, top in pairwise(np.linspace(low, high, ALONG + 1).tolist()):
                 nodes = wall.boundary(bottom, top, NODES)
-                patch = _patches(nodes.points, wall, low, high)
-                per_width += np.bincount(
-                    patch, model.density.at(nodes.points) * nodes.areas, minlength=AROUND * ALONG
-                )
+                points_there = model.density.at(nodes.points) * nodes.areas
+                per_width += np.bincount(patches.of(nodes.points), points_there, AROUND * ALONG)
             size = float(np.sqrt(np.abs(wall.area(np.linspace(low, high, 5))).min()))
             widths = np.minimum(np.array(BANDS) * model.sigma, WIDEST * size)
             away = np.abs(wall.foot(inner).distance)
-            patch = _patches(inner, wall, low, high)
+            patch = patches.of(inner)
             for k, width in enumerate(widths):
                 found = np.bincount(patch[away < width], minlength=AROUND * ALONG)
                 expected = np.maximum(per_width * width, FEWEST)
@@ -64,11 +64,24 @@ def misfit(points: Floats, model: ExactModel, runs: range, together: float) -> f
     return float(total.max()) / together
 
 
-def _patches(points: Floats, wall: Wall, low: float, high: float) -> Ints:
-    """Which patch (n,) of the wall points belong to: by height, and by the angle about its middle."""
-    ends = [wall.boundary(z - THIN, z + THIN, 64) for z in (low + THIN, high - THIN)]
-    first, last = (end.areas @ end.points[:, :2] / max(float(end.areas.sum()), 1e-300) for end in ends)
-    share = np.clip((points[:, 2] - low) / (high - low), 0, 1 - 1e-9)
-    spoke = points[:, :2] - first - share[:, None] * (last - first)
-    turn = np.arctan2(spoke[:, 1], spoke[:, 0]) / (2 * np.pi) % 1.0
-    return (share * ALONG).astype(np.intp) * AROUND + np.minimum((turn * AROUND).astype(np.intp), AROUND - 1)
+@dataclass(frozen=True)
+class _Patches:
+    """Patches of a wall between two heights, about the line between its middles at both."""
+
+    low: float
+    high: float
+    first: Floats
+    last: Floats
+
+    def of(self, points: Floats) -> Ints:
+        """Which patch (n,) points (n, 3) belong to: by height, and by the angle about the middle."""
+        share = np.clip((points[:, 2] - self.low) / (self.high - self.low), 0, 1 - 1e-9)
+        spoke = points[:, :2] - self.first - share[:, None] * (self.last - self.first)
+        turn = np.arctan2(spoke[:, 1], spoke[:, 0]) / (2 * np.pi) % 1.0
+        around = np.minimum((turn * AROUND).astype(np.intp), AROUND - 1)
+        return (share * ALONG).astype(np.intp) * AROUND + around
+
+
+def _patches(wall: Wall, low: float, high: float) -> _Patches:
+    ends = (wall.boundary(z - THIN, z + THIN, 64).centre for z in (low + THIN, high - THIN))
+    return _Patches(low, high, *ends)

@@ -20,6 +20,7 @@ from sketchloft.outline.circle import Circle
 from sketchloft.outline.outline import Outline
 from sketchloft.stack import Run, Stack, Wall
 from sketchloft.surface import basis_matrix, even_knots
+from sketchloft.wall.dome import taper_and_bow
 from sketchloft.wall.profile import ArcProfile, LineProfile, SplineProfile
 from sketchloft.wall.revolved import Revolved
 from sketchloft.wall.swept import Freedom, Swept
@@ -96,14 +97,13 @@ def _walls(
     plan: PlanView, outline: Outline, ends: tuple[float, float], twist: float, *, changing: bool
 ) -> list[Wall]:
     slanted = bool(np.any(plan.drift))
-    _, first, _ = plan.growth
+    taper, bow = taper_and_bow(*plan.growth[1:].tolist())
     walls: list[Wall] = []
     if isinstance(outline, Circle) and not twist:
         # A density that changes across makes what is revolved look slanted.
         walls = _revolved(plan, outline, ends, changing=changing)
     if walls and not slanted:
         return walls
-    bow = _bow(plan)
 
     def swept(*free: Freedom, taper: float = 0.0, bow: float = 0.0) -> Swept:
         drift = plan.drift if "drift" in free else np.zeros(2)
@@ -115,13 +115,13 @@ def _walls(
     if slanted:
         walls.append(swept("drift"))
     if changing:
-        walls.append(swept("taper", taper=first / 2))
+        walls.append(swept("taper", taper=taper))
     if slanted and changing:
-        walls.append(swept("drift", "taper", taper=first / 2))
-    if changing and not twist and bow > abs(first) / 2:
-        walls.append(swept("taper", "bow", taper=first / 2, bow=bow))
+        walls.append(swept("drift", "taper", taper=taper))
+    if changing and not twist and bow > abs(taper):
+        walls.append(swept("taper", "bow", taper=taper, bow=bow))
         if slanted:
-            walls.append(swept("drift", "taper", "bow", taper=first / 2, bow=bow))
+            walls.append(swept("drift", "taper", "bow", taper=taper, bow=bow))
     return walls
 
 
@@ -142,12 +142,6 @@ def _revolved(plan: PlanView, circle: Circle, ends: tuple[float, float], *, chan
         basis = basis_matrix(knots, 3, z)
         profiles.append(SplineProfile(knots, np.linalg.lstsq(basis, r, rcond=None)[0]))
     return [Revolved(circle.centre, profile) for profile in profiles]
-
-
-def _bow(plan: PlanView) -> float:
-    """How much the squared size falls behind that of a straight taper, per height."""
-    _, first, second = plan.growth
-    return float(np.sqrt(max(first**2 / 4 - second, 0.0)))
 
 
 def _tori(z: Floats, r: Floats) -> list[ArcProfile]:

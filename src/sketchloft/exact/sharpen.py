@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sketchloft.cloud import Floats
-from sketchloft.exact.expected import mass_nodes, wall_nodes
+from sketchloft.exact.expected import empty_shell
 from sketchloft.exact.fit import climb, fit_density
 from sketchloft.exact.likelihood import beside_walls, value_of
 from sketchloft.exact.model import ExactModel, thicker
@@ -43,7 +43,7 @@ def sharpened(points: Floats, model: ExactModel, *, tilt: bool) -> tuple[ExactMo
     (3, 3) float array
         The rotation: new points = old points @ rotation.
     """
-    floor = max(FLOOR, SHELLS * _shell(points, model))
+    floor = max(FLOOR, SHELLS * model.size * empty_shell(model, len(points)))
     turn, sigma = np.eye(3), model.sigma
     sample, every = _thinned(points, MOST_POINTS)
     band, judged = points, _Judged(points, 1, points[:0], 0.0)
@@ -99,11 +99,3 @@ def _value(judged: _Judged, model: ExactModel, turn: Floats) -> float:
     thin = thicker(model, 1 / judged.every)
     inside = np.log(thin.density.at(judged.inside @ turn) + thin.stray)
     return value_of(judged.points @ turn, thin) + judged.each * float(inside.sum())
-
-
-def _shell(points: Floats, model: ExactModel) -> float:
-    """Expected empty shell of the model's parameters, V / (n S) each."""
-    nodes = wall_nodes(model)
-    _, volumes = mass_nodes(model, nodes)
-    surface = sum(float(node.spread.areas.sum()) for node in nodes)
-    return model.size * float(volumes.sum()) / (len(points) * surface)

@@ -17,11 +17,12 @@ from sketchloft.outline.polygons import LineArc, Polygon, corner_areas
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import SplineLoop
 from sketchloft.stack import Wall
+from sketchloft.wall.dome import taper_and_bow
 from sketchloft.wall.profile import ArcProfile, LineProfile, Profile, SplineProfile
 from sketchloft.wall.revolved import Revolved, radius_at
 from sketchloft.wall.swept import Freedom, Swept
 
-__all__ = ["profiles_like", "walls_like"]
+__all__ = ["as_revolved", "profiles_like", "walls_like"]
 
 HEIGHTS = 25
 TINY = 1e-12
@@ -48,15 +49,23 @@ def walls_like(wall: Wall, low: float, high: float) -> Iterator[Wall]:
                 yield Revolved(wall.outline.centre, profile)
 
 
+def as_revolved(wall: Swept) -> Wall:
+    """The cylinder or cone that a circle is which goes straight up; any other wall as it is."""
+    moves = wall.twist or wall.bows or np.any(wall.drift) or "drift" in wall.free
+    if not isinstance(wall.outline, Circle) or moves or (wall.taper and not wall.free):
+        return wall
+    slope = wall.outline.radius * wall.taper if wall.free else None
+    return Revolved(wall.outline.centre, LineProfile(wall.height, wall.outline.radius, slope))
+
+
 def _spheroids(centre: Floats, z: Floats, r: Floats) -> Iterator[Swept]:
     """Spheroid, about an axis at a centre, nearest to radii (m,) at heights (m,)."""
     height = float(z.mean())
     second, first, square = np.polyfit(z - height, r**2, 2) if (r > 0).all() else np.zeros(3)
-    taper = float(first) / 2 / max(float(square), TINY)
-    bow = np.sqrt(max(taper**2 - float(second) / max(float(square), TINY), 0.0))
+    taper, bow = taper_and_bow(*(float(term) / max(float(square), TINY) for term in (first, second)))
     if square > 0 and bow > abs(taper):
         circle = Circle(centre, float(np.sqrt(square)))
-        yield Swept(circle, height, centre, np.zeros(2), taper, 0.0, ("taper", "bow"), float(bow))
+        yield Swept(circle, height, centre, np.zeros(2), taper, 0.0, ("taper", "bow"), bow)
 
 
 def _moving_otherwise(wall: Swept) -> Iterator[Swept]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from sketchloft.cloud import Floats
+from sketchloft.exact.joins import poles
 from sketchloft.exact.model import ExactModel
 from sketchloft.outline.polygons import LineArc, Polygon
 from sketchloft.outline.rounded_polygon import RoundedPolygon
@@ -55,11 +56,7 @@ def detached(model: ExactModel) -> int:
 
 def _ends_within(wall: Wall, model: ExactModel, j: int) -> bool:
     """Whether a sphere or a dome ends before a break that other runs lie beyond."""
-    low, high = -np.inf, np.inf
-    if isinstance(wall, Swept) and wall.bows:
-        low, high = wall.tips()
-    elif isinstance(wall, Revolved) and isinstance(wall.profile, ArcProfile) and wall.profile.offset is None:
-        low, high = wall.profile.height - wall.profile.radius, wall.profile.height + wall.profile.radius
+    low, high = poles(wall)
     below, above = model.stack.breaks[j], model.stack.breaks[j + 1]
     return bool((j > 0 and below < low) or (j + 1 < len(model.stack.runs) and above > high))
 

@@ -102,9 +102,7 @@ def tried(
             return None
         if free:
             candidate = fit_density(points, candidate, 1)
-            candidate, _, _ = climb(
-                near, candidate, steps, runs=wide, noise=True, most=MOST_NOISE, enough=0.05
-            )
+            candidate, _, _ = climb(near, candidate, steps, runs=wide, noise=True, most=MOST_NOISE)
     candidate = natural_joins(candidate)
     return candidate if worth(near, candidate, together, count) > least else None
 

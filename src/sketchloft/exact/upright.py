@@ -11,12 +11,10 @@ from sketchloft.exact.fit import climb
 from sketchloft.exact.joins import natural_joins
 from sketchloft.exact.likelihood import beside_walls
 from sketchloft.exact.model import ExactModel, model_of
+from sketchloft.exact.simpler_walls import as_revolved
 from sketchloft.exact.tilt import onto_z
 from sketchloft.exact.trial import worth
-from sketchloft.outline.circle import Circle
 from sketchloft.stack import Run, Stack, Wall
-from sketchloft.wall.profile import LineProfile
-from sketchloft.wall.revolved import Revolved
 from sketchloft.wall.swept import Swept
 
 __all__ = ["upright"]
@@ -64,7 +62,4 @@ def _straight(wall: Wall) -> Wall:
     if not isinstance(wall, Swept) or "drift" not in wall.free:
         return wall
     free = tuple(name for name in wall.free if name != "drift")
-    if isinstance(wall.outline, Circle) and set(free) <= {"taper"}:
-        slope = wall.outline.radius * wall.taper if free else None
-        return Revolved(wall.outline.centre, LineProfile(wall.height, wall.outline.radius, slope))
-    return replace(wall, drift=np.zeros(2), free=free)
+    return as_revolved(replace(wall, drift=np.zeros(2), free=free))

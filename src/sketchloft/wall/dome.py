@@ -9,7 +9,7 @@ import numpy as np
 from sketchloft.cloud import Floats
 from sketchloft.outline.outline import Foot
 
-__all__ = ["DomeFoot", "dome_foot"]
+__all__ = ["DomeFoot", "dome_foot", "taper_and_bow"]
 
 LEAST_SUPPORT = 1e-6
 """Smallest distance of a tangent from the pivot; the outline is meant to be seen whole from there."""
@@ -80,3 +80,9 @@ def dome_foot(
         -(reach / steep)[:, None] * seen.normal,
         seen.curvature / np.sqrt(round_) + along,
     )
+
+
+def taper_and_bow(first: float, second: float) -> tuple[float, float]:
+    """Taper and bow of a squared scale ``1 + first dz + second dz**2``; no bow where it curves upwards."""
+    taper = first / 2
+    return taper, float(np.sqrt(max(taper**2 - second, 0.0)))

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from sketchloft.cloud import Floats
 
 __all__ = ["WallBoundary", "WallFoot"]
@@ -47,3 +49,8 @@ class WallBoundary:
     points: Floats
     normals: Floats
     areas: Floats
+
+    @property
+    def centre(self) -> Floats:
+        """Mean (2,) of the points seen along z, by the areas."""
+        return np.asarray(self.areas @ self.points[:, :2] / max(float(self.areas.sum()), 1e-300))

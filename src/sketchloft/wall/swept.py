@@ -100,6 +100,11 @@ class Swept:
             return np.sqrt(np.maximum(self.square(heights), 0.0))
         return 1 + self.taper * (heights - self.height)
 
+    def _rise(self, heights: Floats) -> Floats:
+        """Half the slope of the squared scale at heights (m,)."""
+        dz = heights - self.height
+        return self.taper * (1 + self.taper * dz) - self.bow**2 * dz
+
     def tips(self) -> tuple[float, float]:
         """Heights between which there are sections, where the wall comes down to a point; else infinite."""
         if not self.bows:
@@ -149,7 +154,7 @@ class Swept:
 
     def _dome(self, points: Floats) -> WallFoot:
         dz = points[:, 2] - self.height
-        square, rise = self.square(points[:, 2]), self.taper * (1 + self.taper * dz) - self.bow**2 * dz
+        square, rise = self.square(points[:, 2]), self._rise(points[:, 2])
         moved = points[:, :2] - self.pivot - dz[:, None] * self.drift
         arm = moved / np.sqrt(np.maximum(square, LEAST_SQUARE))[:, None]
         seen = self.outline.foot(self.pivot + arm)
@@ -179,8 +184,7 @@ class Swept:
         scale = self.scale(z)[:, None]
         growth = self.taper * np.ones_like(scale)
         if self.bows:
-            rise = self.taper * (1 + self.taper * dz) - self.bow**2 * dz
-            growth = rise / np.maximum(scale, 1e-9)
+            growth = self._rise(z)[:, None] / np.maximum(scale, 1e-9)
         cos, sin = np.cos(self.twist * dz), np.sin(self.twist * dz)
         arm = ring.points - self.pivot
         xy = self.carried(ring.points, z)

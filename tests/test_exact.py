@@ -17,8 +17,12 @@ from sketchloft.brep.tessellate import tessellate
 from sketchloft.cloud import Floats
 from sketchloft.direction import Axis, DirectionParams
 from sketchloft.exact.body import ExactBody
+from sketchloft.outline.placed_polygons import RegularPolygon
+from sketchloft.outline.polygons import LineArc
 from sketchloft.sample import GOALS, FillParams, sample_goal
+from sketchloft.stack import Run, Stack
 from sketchloft.stack_volume import stack_volume
+from sketchloft.wall.ruled import Ruled
 
 N = 5000
 ALONG_Z: Axis = (0.0, 0.0, 1.0)
@@ -142,6 +146,25 @@ def test_known_dimensions_come_out() -> None:
     assert sorted(stand.vector[2:4] * body.scale) == pytest.approx([1.5, 2], abs=0.02)
     assert shade.vector[3] == pytest.approx(-0.5, abs=0.01)
     assert np.diff(body.model.stack.breaks) * body.scale == pytest.approx([1.5, 10.5, 6], abs=0.03)
+
+
+# Sections that change
+
+
+def test_a_square_that_becomes_round_is_one_ruled_wall() -> None:
+    square = RegularPolygon(np.zeros(2), 4.0, 0.3, 4)
+    rounded = LineArc(
+        RegularPolygon(np.zeros(2), 2.0, 0.3, 4).chain()[0], np.full(4, np.tan(np.pi / 8)), np.ones(4, bool)
+    )
+    wall = Ruled(square, rounded, 0.0, 8.0)
+    box = np.random.default_rng(7).uniform([-4, -4, 0], [4, 4, 8], (6 * N, 3))
+    body = built(box[wall.foot(box).distance < 0][:N])
+    assert kinds(body) == [["ruled"]]
+    assert body.facts.faces == {"BSplineSurface": 4, "Plane": 2}
+    solid = Stack(np.array([0.0, 8.0]), (Run((wall,)),))
+    assert body.facts.volume == pytest.approx(stack_volume(solid), rel=0.01)
+    corners = np.linalg.norm(tessellate(body.solid, 5e-5, 0.1).vertices[:, :2], axis=1)
+    assert corners.max() == pytest.approx(4.0, abs=0.02)
 
 
 # Sections with holes, and sections that split

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from sketchloft.cloud import Floats
+from sketchloft.dispersion import dispersion
 from sketchloft.exact.body import SEARCH_POINTS
-from sketchloft.exact.dispersion import dispersion
 from sketchloft.exact.level_set import level_set, on_grid
 from sketchloft.exact.section_contours import contours
 from sketchloft.ring import ring_area

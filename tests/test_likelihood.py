@@ -25,6 +25,7 @@ from sketchloft.stack_volume import stack_volume
 from sketchloft.wall.lofted import lofted
 from sketchloft.wall.profile import ArcProfile, LineProfile, SplineProfile
 from sketchloft.wall.revolved import Revolved
+from sketchloft.wall.ruled import Ruled
 from sketchloft.wall.swept import Freedom, Swept
 
 COUNT, SIGMA = 4000, 0.004
@@ -34,6 +35,7 @@ KNOTS = np.array([-0.304] * 4 + [0.02] + [0.284] * 4)
 """Just longer than the runs, so that breaks can be moved."""
 CENTRE, ORIGIN = np.array([0.03, -0.02]), np.zeros(2)
 ELL = np.array([[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]]) / 5 - 0.16
+ROUND = np.array([0.0, 0.4, 0.45, 0.3])
 BULGES = np.array([0, 0.3, 0, -0.4, 0.2, 0])
 ANGLE = np.arange(12) * np.pi / 6
 FLOWER = spline_loop(
@@ -72,6 +74,11 @@ WALLS: dict[str, Wall] = {
     "lines and arcs": swept(LineArc(ELL, BULGES, BULGES != 0)),
     "free outline": swept(FLOWER),
     "loft": lofted(RINGS, KNOTS),
+    "ruled": Ruled(
+        RegularPolygon(CENTRE, 0.4, 0.2, 4),
+        LineArc(RegularPolygon(ORIGIN, 0.3, 0.3, 4).chain()[0], ROUND, ROUND != 0),
+        *BREAKS.tolist(),
+    ),
 }
 each = pytest.mark.parametrize("name", WALLS)
 

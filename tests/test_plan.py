@@ -40,6 +40,7 @@ from sketchloft.stack import Run, Stack, Wall
 from sketchloft.wall.lofted import lofted
 from sketchloft.wall.profile import ArcProfile, LineProfile, SplineProfile
 from sketchloft.wall.revolved import Revolved
+from sketchloft.wall.ruled import Ruled
 from sketchloft.wall.swept import Swept
 
 CENTRE = np.array([0.03, -0.02])
@@ -54,6 +55,7 @@ FLOWER = spline_loop(
     )
     / 10
 )
+BULGES = np.array([0, 0.3, 0, -0.4, 0.2, 0])
 OUTLINES: list[Outline] = [
     Circle(CENTRE, 0.3),
     Ellipse(CENTRE, 0.3, 0.2, 0.7),
@@ -74,6 +76,7 @@ WALLS: list[Wall] = [
     Revolved(CENTRE, ArcProfile(-0.05, 0.1, 0.45, 1)),
     Revolved(CENTRE, SplineProfile(KNOTS, np.array([0.2, 0.3, 0.35, 0.3, 0.25]))),
     lofted(RINGS, KNOTS),
+    Ruled(Polygon(ELL), LineArc(0.8 * ELL, BULGES, BULGES != 0), -0.3, 0.3),
     *(Swept(outline, 0.1, np.zeros(2), np.zeros(2)) for outline in OUTLINES),
     *(
         Swept(

@@ -30,12 +30,13 @@ from sketchloft.outline.outline import Outline
 from sketchloft.outline.placed_polygons import Rectangle, RegularPolygon, RoundedRectangle
 from sketchloft.outline.polygons import LineArc, Polygon
 from sketchloft.outline.spline_loop import spline_loop
-from sketchloft.stack import Run, Stack, Wall
+from sketchloft.stack import Run, Stack, Wall, spanned
 from sketchloft.stack_distance import distance_from_stack
 from sketchloft.stack_volume import stack_volume
 from sketchloft.wall.lofted import lofted
 from sketchloft.wall.profile import ArcProfile, LineProfile, SplineProfile
 from sketchloft.wall.revolved import Revolved
+from sketchloft.wall.ruled import Ruled
 from sketchloft.wall.swept import Swept
 
 AXIS = np.array([0.1, 0.2])
@@ -48,7 +49,8 @@ KIDNEY = np.array(
 
 
 def stack(breaks: list[float], *runs: Wall | Run) -> Stack:
-    return Stack(np.array(breaks), tuple(run if isinstance(run, Run) else Run((run,)) for run in runs))
+    rows = tuple(run if isinstance(run, Run) else Run((run,)) for run in runs)
+    return spanned(Stack(np.array(breaks), rows))
 
 
 def cylinder(radius: float, at: Floats = AXIS) -> Revolved:
@@ -99,6 +101,8 @@ SPHERES = stack(
     sphere(0, 0.4), sphere(0.5, 0.3), sphere(0.85, 0.2),
 )  # fmt: skip
 LAMP = stack([0, 0.1, 0.6, 0.9], cylinder(0.4), swept(rectangle(0.2, 0.1)), cone(0.6, 0.3, -0.5))
+SQUARE = RegularPolygon(AXIS, 0.4, 0.0, 4)
+ROUND = LineArc(RegularPolygon(AXIS, 0.3, 0.0, 4).chain()[0], np.full(4, np.tan(np.pi / 8)), np.ones(4, bool))
 ELLIPSE = Ellipse(AXIS, 0.4, 0.2, 0.2)
 CASES: dict[str, tuple[Stack, dict[str, int]]] = {
     "three spheres": (SPHERES, {"SphericalSurface": 3}),
@@ -209,6 +213,15 @@ CASES: dict[str, tuple[Stack, dict[str, int]]] = {
     "dome on a prism": (
         stack([0, 0.3, 0.8], swept(ELLIPSE), swept(ELLIPSE, 0.3, bow=2.0)),
         {"BSplineSurface": 1, "Plane": 1, "SurfaceOfLinearExtrusion": 1},
+    ),
+    "square to round": (stack([0, 0.8], Ruled(SQUARE, ROUND)), {"BSplineSurface": 4, "Plane": 2}),
+    "between two rectangles": (
+        stack([0, 0.8], Ruled(Rectangle(AXIS, 0.8, 0.4, 0), Rectangle(AXIS, 0.3, 0.5, 0))),
+        {"Plane": 6},
+    ),
+    "square, turned": (
+        stack([0, 0.8], Ruled(SQUARE, RegularPolygon(AXIS, 0.4, 0.4, 4))),
+        {"BSplineSurface": 4, "Plane": 2},
     ),
     "crossing sections": (
         stack([0, 0.4, 0.8], swept(ELLIPSE), swept(rectangle(0.5, 0.5))),

@@ -16,12 +16,12 @@ from sketchloft.exact.flush import flush
 from sketchloft.exact.misfit import misfit
 from sketchloft.exact.model import ExactModel, model_of
 from sketchloft.exact.recognise_section import recognise_section
-from sketchloft.exact.robust_size import middle_and_size
 from sketchloft.exact.soundness import detached, sound
 from sketchloft.exact.upright import upright
 from sketchloft.outline.circle import Circle
 from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.placed_polygons import Rectangle
+from sketchloft.robust_size import middle_and_size
 from sketchloft.sample import GOALS, FillParams, sample_goal
 from sketchloft.stack import Run, Stack, Wall
 from sketchloft.stack_volume import stack_volume

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from sketchloft.cloud import Floats, Ints
+from sketchloft.dispersion import dispersion
+from sketchloft.robust_size import middle_and_size
 
 __all__ = ["NeighbourGraph", "neighbour_graph"]
 
@@ -15,7 +17,8 @@ NEIGHBOURS = 8
 REACH = 2.0
 """Neighbours are linked when they lie within this many times the reach of both."""
 APART = 5.0
-"""Parts closer than this many times the smaller reach are one, with a thin place in the drawing."""
+"""Parts closer than this many times the smaller reach are one, with a thin place in the drawing; farther
+by the third root of how many points go together, as those of a stroke do: strokes leave wider gaps."""
 STRAY = 3.0
 """Points that reach more than this many times as far as the median point are strays and join nothing."""
 MIN_SHARE = 0.02
@@ -33,11 +36,14 @@ class NeighbourGraph:
         Median distance of each point's eight nearest neighbours.
     links : (m, 2) int array
         Pairs of points.
+    apart : float
+        Parts closer than this many times the smaller reach are one.
     """
 
     points: Floats
     reach: Floats
     links: Ints
+    apart: float
 
     def joined(self, label: Ints) -> Ints:
         """Join the labels that hang together.
@@ -75,7 +81,7 @@ class NeighbourGraph:
         for i, j in itertools.combinations(range(len(large)), 2):
             a, b = members[i], members[j]
             distance, nearest = map(np.asarray, cKDTree(self.points[a]).query(self.points[b]))
-            if (distance <= APART * np.minimum(self.reach[a][nearest], self.reach[b])).any():
+            if (distance <= self.apart * np.minimum(self.reach[a][nearest], self.reach[b])).any():
                 close.append((i, j))
         return _connected(np.array(close, dtype=np.intp).reshape(-1, 2), np.arange(len(large)))
 
@@ -99,7 +105,9 @@ def neighbour_graph(points: Floats) -> NeighbourGraph:
     first = np.repeat(np.arange(len(points)), k)
     second, length = other[:, 1:].ravel(), distance[:, 1:].ravel()
     near = length <= REACH * np.minimum(reach[first], reach[second])
-    return NeighbourGraph(points, reach, np.stack([first[near], second[near]], axis=1).astype(np.intp))
+    links = np.stack([first[near], second[near]], axis=1).astype(np.intp)
+    together = dispersion(points / middle_and_size(points)[1])
+    return NeighbourGraph(points, reach, links, APART * float(np.cbrt(together)))
 
 
 def _connected(links: Ints, label: Ints) -> Ints:

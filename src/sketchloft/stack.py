@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -11,11 +11,12 @@ import numpy as np
 from sketchloft.cloud import Floats
 from sketchloft.wall.lofted import Lofted
 from sketchloft.wall.revolved import Revolved
+from sketchloft.wall.ruled import Ruled
 from sketchloft.wall.swept import Swept
 
-__all__ = ["Run", "Stack", "Wall"]
+__all__ = ["Run", "Stack", "Wall", "spanned"]
 
-Wall = Revolved | Swept | Lofted
+Wall = Revolved | Swept | Ruled | Lofted
 
 
 @dataclass(frozen=True)
@@ -61,3 +62,14 @@ class Stack:
         """Each run with the heights of the breaks below and above it."""
         for run, (low, high) in zip(self.runs, pairwise(self.breaks.tolist()), strict=True):
             yield run, low, high
+
+
+def spanned(stack: Stack) -> Stack:
+    """Put the outlines of ruled walls at the breaks of their runs."""
+    if not any(isinstance(wall, Ruled) for run in stack.runs for wall in run.walls):
+        return stack
+    runs = tuple(
+        replace(run, walls=tuple(w.between(low, high) if isinstance(w, Ruled) else w for w in run.walls))
+        for run, low, high in stack.slabs()
+    )
+    return replace(stack, runs=runs)

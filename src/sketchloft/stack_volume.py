@@ -8,6 +8,7 @@ from sketchloft.cloud import Floats
 from sketchloft.stack import Stack, Wall
 from sketchloft.wall.lofted import Lofted
 from sketchloft.wall.profile import ArcProfile, LineProfile, SplineProfile
+from sketchloft.wall.ruled import Ruled
 from sketchloft.wall.swept import Swept
 
 __all__ = ["stack_volume"]
@@ -37,7 +38,7 @@ def _quadrature(wall: Wall, low: float, high: float) -> tuple[Floats, Floats]:
     """Heights and weights between two heights."""
     if isinstance(wall, Lofted):
         return _gauss(_ends(wall.knots, low, high))
-    if isinstance(wall, Swept):
+    if isinstance(wall, (Ruled, Swept)):
         return _gauss(np.clip(wall.tips(), low, high))
     match wall.profile:
         case SplineProfile(knots):

@@ -13,11 +13,13 @@ from sketchloft.brep.block import Block
 from sketchloft.brep.kernel import point
 from sketchloft.brep.lofted_tube import lofted_tube
 from sketchloft.brep.revolved_tube import revolved_tube
+from sketchloft.brep.ruled_tube import ruled_tube
 from sketchloft.brep.shell_parts import planar_face, turned_around
 from sketchloft.brep.swept_tube import swept_tube
 from sketchloft.brep.tube import Tube
 from sketchloft.stack import Run, Wall
 from sketchloft.wall.revolved import Revolved
+from sketchloft.wall.ruled import Ruled
 from sketchloft.wall.swept import Swept
 
 __all__ = ["run_block"]
@@ -56,6 +58,8 @@ def _tube(wall: Wall, low: float, high: float, size: float) -> Tube:
         return revolved_tube(wall, low, high, size)
     if isinstance(wall, Swept):
         return swept_tube(wall, low, high)
+    if isinstance(wall, Ruled):
+        return ruled_tube(wall, low, high)
     return lofted_tube(wall, low, high)
 
 

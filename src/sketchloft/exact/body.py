@@ -10,10 +10,10 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.direction import Axis
+from sketchloft.dispersion import clump, dispersion
 from sketchloft.errors import ModelError, StageError
 from sketchloft.exact.coaxial import coaxial
 from sketchloft.exact.direction import Candidate, exact_direction
-from sketchloft.exact.dispersion import clump, dispersion
 from sketchloft.exact.evidence import improved, without_slivers
 from sketchloft.exact.first_stack import first_stack
 from sketchloft.exact.fit import climb, fit_density
@@ -23,12 +23,12 @@ from sketchloft.exact.joins import natural_joins
 from sketchloft.exact.level_set import LevelSet, hollow_share, level_set, on_grid
 from sketchloft.exact.likelihood import beside_walls
 from sketchloft.exact.model import ExactModel, thicker
-from sketchloft.exact.robust_size import middle_and_size
 from sketchloft.exact.segments import SegmentsParams, segments
 from sketchloft.exact.sharpen import sharpened
 from sketchloft.exact.trial import MOST_NOISE
 from sketchloft.exact.upright import upright
 from sketchloft.frame import Frame, frame_along, principal_frame
+from sketchloft.robust_size import middle_and_size
 from sketchloft.wall.lofted import Lofted
 
 if TYPE_CHECKING:

@@ -8,7 +8,8 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.exact.changes import merges, splits, swaps
-from sketchloft.exact.free_walls import lofted, splined
+from sketchloft.exact.free_profiles import splined
+from sketchloft.exact.free_walls import lofted, ruled
 from sketchloft.exact.model import ExactModel
 from sketchloft.exact.trial import Change, tried
 
@@ -40,6 +41,7 @@ def improved(points: Floats, model: ExactModel, together: float, *, lofts: bool 
         model = splined(points, model, together)
         model = _through(points, model, together, splits, failed)
         model = _through(points, model, together, swaps, failed)
+        model = ruled(points, model, together)
         model = lofted(points, model, together) if lofts else model
         if model is before:
             break

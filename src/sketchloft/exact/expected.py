@@ -81,8 +81,10 @@ def expected_slope(model: ExactModel, nodes: list[WallNodes], *, caps: bool) -> 
     slope = np.zeros(walls + len(breaks))
     for node in nodes:
         at, weight = node.spread.points, node.spread.areas * model.density.at(node.spread.points)
-        gradient = model.stack.runs[node.run].walls[node.wall].foot(at).gradient
-        np.add.at(slope, model.slots[node.run][node.wall], -node.sign * weight @ gradient)
+        foot = model.stack.runs[node.run].walls[node.wall].foot(at)
+        np.add.at(slope, model.slots[node.run][node.wall], -node.sign * weight @ foot.gradient)
+        if foot.by_ends is not None:
+            slope[walls + node.run : walls + node.run + 2] -= node.sign * weight @ foot.by_ends
     for j, run in enumerate(model.stack.runs):
         for k, sign in ((j, -1), (j + 1, 1)):
             if caps or 0 < k < len(breaks) - 1:

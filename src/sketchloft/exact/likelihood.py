@@ -162,6 +162,9 @@ def _section(
         near = np.abs(depth[i]) < REACH * sigma
         farthest = np.abs(foot.gradient[near]).max(axis=0, initial=0.2)
         slopes.append((model.slots[j][i], values, farthest))
+        if foot.by_ends is not None:
+            ends = model.size + np.array([j, j + 1])
+            slopes.append((ends, -signs[i] * bell[:, None] * foot.by_ends, np.ones(2)))
         # A point turned by (a, b, 0) moves by (b z, -a z, a y - b x).
         x, y, z = points.T
         nx, ny, nz = foot.normal.T

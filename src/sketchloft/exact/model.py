@@ -9,7 +9,7 @@ import numpy as np
 
 from sketchloft.cloud import Floats, Ints
 from sketchloft.exact.density import Density
-from sketchloft.stack import Run, Stack
+from sketchloft.stack import Run, Stack, spanned
 
 __all__ = ["ExactModel", "Join", "model_of", "thicker", "tied"]
 
@@ -79,7 +79,7 @@ class ExactModel:
             )
             for run, slots in zip(self.stack.runs, self.slots, strict=True)
         )
-        return replace(self, stack=Stack(breaks, runs))
+        return replace(self, stack=spanned(Stack(breaks, runs)))
 
 
 def thicker(model: ExactModel, factor: float) -> ExactModel:
@@ -92,6 +92,7 @@ def thicker(model: ExactModel, factor: float) -> ExactModel:
 def model_of(stack: Stack, sigma: float, density: Density, stray: float, space: float) -> ExactModel:
     """Make a model in which nothing is tied and every break is a step."""
     slots, at = [], 0
+    stack = spanned(stack)
     for run in stack.runs:
         row = []
         for wall in run.walls:

@@ -9,20 +9,20 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from sketchloft.cloud import Floats, Unit
+from sketchloft.dispersion import clump, dispersion
 from sketchloft.errors import InputError
 from sketchloft.exact.body import ROOM, ExactBody
 from sketchloft.exact.density import Density
-from sketchloft.exact.dispersion import clump, dispersion
 from sketchloft.exact.fit import climb, fit_density
 from sketchloft.exact.inside_density import inside_density
 from sketchloft.exact.level_set import level_set
 from sketchloft.exact.likelihood import beside_walls
 from sketchloft.exact.model import ExactModel
-from sketchloft.exact.robust_size import middle_and_size
 from sketchloft.exact.sharpen import sharpened
 from sketchloft.plan.from_model import planned_from_model
 from sketchloft.plan.plan import Plan, PlannedBody
 from sketchloft.plan.to_model import model_from_plan
+from sketchloft.robust_size import middle_and_size
 from sketchloft.stack_volume import stack_volume
 
 if TYPE_CHECKING:

@@ -31,6 +31,8 @@ BESIDE = 4.0
 """Blurs beside a contour within which points tell where the outline is."""
 CROWDED = 1.5
 """An outline that leaves the points so many times denser than its contour did has lost them."""
+LOST = 0.01
+"""Share of the places whose points are not looked at that an outline may leave on the wrong side."""
 HOPELESS = 150.0
 """An outline that is so much worse than another before the noise is fitted is given up."""
 COMMON = (Circle, Ellipse, Rectangle)
@@ -94,6 +96,7 @@ def _best(points: Floats, ring: Floats, blur: float, together: float, *, hole: b
             value -= _rarity(outline)
         wall = model.stack.runs[0].walls[0]
         if isinstance(wall, Swept):
+            value = value if _holds(wall.outline, core[:, :2], hole=hole) else -np.inf
             tried.append((value, wall.outline))
         return value
 
@@ -120,6 +123,12 @@ def _best(points: Floats, ring: Floats, blur: float, together: float, *, hole: b
     for poles in POLES[1:] if curved else ():
         attempt(spline_of(ring, poles))
     return max(tried, key=lambda found: found[0])[1]
+
+
+def _holds(outline: Outline, places: Floats, *, hole: bool) -> bool:
+    """Whether an outline leaves the places (m, 2), whose points are not looked at, on their side."""
+    depth = outline.foot(places).distance * (1 if hole else -1)
+    return not len(places) or bool((depth < 0).mean() <= LOST)
 
 
 def _even(near: Floats, outline: Outline, blur: float, together: float) -> bool:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.exact.dispersion import clump
+from sketchloft.dispersion import clump
 from sketchloft.exact.level_set import LevelSet, level_set
 from sketchloft.ring import ring_area
 

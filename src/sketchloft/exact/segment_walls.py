@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 
 from sketchloft.cloud import Floats
+from sketchloft.dispersion import clump
 from sketchloft.exact.density import Density
-from sketchloft.exact.dispersion import clump
 from sketchloft.exact.fit import climb, fit_density
 from sketchloft.exact.model import ExactModel, model_of
 from sketchloft.exact.recognise_section import SectionShape, recognise_section

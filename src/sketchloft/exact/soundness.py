@@ -14,6 +14,7 @@ from sketchloft.stack import Run, Wall
 from sketchloft.wall.lofted import Lofted
 from sketchloft.wall.profile import ArcProfile, SplineProfile
 from sketchloft.wall.revolved import Revolved
+from sketchloft.wall.ruled import SAMPLES, Ruled
 from sketchloft.wall.swept import Swept
 
 __all__ = ["covers", "detached", "sound"]
@@ -73,6 +74,8 @@ def _simple(wall: Wall, heights: Floats) -> bool:
     if isinstance(wall, Lofted):
         count = 4 * wall.poles.shape[1]
         rings = wall.ring(heights, np.arange(count) / count)
+    elif isinstance(wall, Ruled):
+        rings = wall.ring(heights, SAMPLES).reshape(len(heights), -1, 2)
     elif isinstance(wall, Swept) and isinstance(wall.outline, MAY_CROSS):
         rings = wall.outline.boundary(64).points[None]
     else:

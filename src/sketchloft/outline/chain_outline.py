@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from typing import Self
 
 from sketchloft.cloud import Floats
 from sketchloft.outline.chain import chain_area, chain_boundary, chain_edges
@@ -14,6 +15,15 @@ __all__ = ["ChainOutline"]
 
 class ChainOutline(ABC):
     """An outline whose parameters say where the vertices of a chain are, and how its edges bulge."""
+
+    @property
+    @abstractmethod
+    def vector(self) -> Floats:
+        """Parameters (p,)."""
+
+    @abstractmethod
+    def moved(self, vector: Floats) -> Self:
+        """Return the outline of the same kind with other parameters (p,)."""
 
     @abstractmethod
     def chain(self) -> tuple[Floats, Floats]:

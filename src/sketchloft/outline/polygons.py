@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from sketchloft.cloud import Floats
 from sketchloft.outline.chain_outline import ChainOutline
 
-__all__ = ["LineArc", "Polygon"]
+__all__ = ["LineArc", "Polygon", "chain_outline", "corner_areas"]
 
 
 @dataclass(frozen=True)
@@ -92,3 +92,8 @@ class LineArc(ChainOutline):
         """Leave out the bulges that are fixed."""
         by_vertices, by_bulges = np.split(gradient, [self.vertices.size], axis=1)
         return np.concatenate([by_vertices, by_bulges[:, self.curved]], axis=1)
+
+
+def chain_outline(vertices: Floats, bulges: Floats) -> Polygon | LineArc:
+    """Outline of a chain whose lines stay lines."""
+    return LineArc(vertices, bulges, bulges != 0) if bulges.any() else Polygon(vertices)

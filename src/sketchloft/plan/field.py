@@ -11,7 +11,7 @@ import numpy as np
 from sketchloft.plan.numbers import Shape, numbers
 from sketchloft.plan.plan import Numbers
 
-__all__ = ["Choice", "Field", "Number", "Quantity"]
+__all__ = ["Choice", "Field", "Fitted", "Number", "Quantity"]
 
 Quantity = Literal["length", "ratio", "angle", "per length", "angle per length", "count"]
 Fitted = Literal["each", "across", "curved", "no"]

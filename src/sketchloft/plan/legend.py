@@ -24,6 +24,8 @@ LEGEND = """\
 #     sphere             centre, height of the centre, radius
 #     torus              centre, height, minor_radius, major_radius, side = "outer" or "inner" (a waist)
 #     spline revolve     centre, knots: heights, radii: the poles of the cubic spline r(height)
+#     ruled              bottom_vertices, bottom_bulges, top_vertices, top_bulges: the outlines at both ends
+#                        of the run, as many edges each, as those of a line-arc
 #     loft               knots: heights, poles: a ring of points for each pole along the heights
 #     circle             centre, radius
 #     ellipse            centre, major_radius, minor_radius, angle

@@ -8,14 +8,17 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.outline.outline import Outline
-from sketchloft.plan.field import Choice, Number
+from sketchloft.outline.polygons import chain_outline
+from sketchloft.plan.field import Choice, Fitted, Number, Quantity
 from sketchloft.plan.form import Form, form
+from sketchloft.plan.numbers import Shape
 from sketchloft.plan.outlines import CENTRE, OUTLINES, RADIUS
 from sketchloft.ring import ring_area
 from sketchloft.stack import Wall
 from sketchloft.wall.lofted import Lofted, lofted
 from sketchloft.wall.profile import ArcProfile, LineProfile, Profile, SplineProfile
 from sketchloft.wall.revolved import Revolved
+from sketchloft.wall.ruled import Ruled
 from sketchloft.wall.swept import FREEDOMS, Freedom, Swept
 
 __all__ = ["FORMS", "kind_of"]
@@ -29,6 +32,10 @@ MOVES = (
     Number("taper", "taper", "per length", required=False),
     Number("twist", "twist", "angle per length", required=False),
     Number("bow", "bow", "per length", required=False),
+)
+_CHAIN: tuple[tuple[str, Quantity, Shape, Fitted], ...] = (
+    ("vertices", "length", (None, 2), "each"),
+    ("bulges", "ratio", (None,), "curved"),
 )
 PLACE = (
     Number("height", "height", fitted="no", required=False),
@@ -114,6 +121,32 @@ def _check_knots(knots: Floats, count: int, what: str) -> None:
         raise ValueError("found knots that do not rise, expected the first and the last one four times each")
 
 
+def _ruled() -> Form:
+    """Two outlines of as many edges, each its vertices and bulges."""
+    fields = [
+        Number(f"{end}_{name}", "", quantity, shape, fitted, least=3)
+        for end in ("bottom", "top")
+        for name, quantity, shape, fitted in _CHAIN
+    ]
+
+    def make(values: dict[str, Any]) -> Ruled:
+        ends = [(values[f"{end}_vertices"], values[f"{end}_bulges"]) for end in ("bottom", "top")]
+        if len({len(part) for end in ends for part in end}) > 1:
+            raise ValueError(
+                "found outlines of different numbers of vertices and bulges, expected as many each"
+            )
+        for vertices, _ in ends:
+            _check_turn(vertices, "vertices")
+        below, above = (chain_outline(*end) for end in ends)
+        return Ruled(below, above)
+
+    def read(wall: Ruled) -> dict[str, Any]:
+        ends = {"bottom": wall.bottom.chain(), "top": wall.top.chain()}
+        return {f"{e}_{n}": end[k] for e, end in ends.items() for k, n in enumerate(("vertices", "bulges"))}
+
+    return Form(tuple(fields), read, make)
+
+
 FORMS: dict[str, Form] = {
     "cylinder": _revolved(form(_cylinder, RADIUS)),
     "cone": _revolved(form(_cone, RADIUS, Number("slope", "slope", "ratio", required=False), AT)),
@@ -128,6 +161,7 @@ FORMS: dict[str, Form] = {
         )
     ),
     "spline revolve": _revolved(form(_spline, KNOTS, Number("radii", "radii", shape=(None,), least=4))),
+    "ruled": _ruled(),
     "loft": form(_loft, KNOTS, Number("poles", "poles", shape=(None, None, 2), fitted="across", least=4)),
     **{kind: _swept(outline) for kind, outline in OUTLINES.items()},
 }

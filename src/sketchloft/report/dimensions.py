@@ -17,6 +17,7 @@ from sketchloft.stack import Wall
 from sketchloft.wall.lofted import Lofted
 from sketchloft.wall.profile import ArcProfile, LineProfile
 from sketchloft.wall.revolved import Revolved, radius_at
+from sketchloft.wall.ruled import Ruled
 from sketchloft.wall.swept import Swept
 
 __all__ = ["Dimension", "dimensions"]
@@ -56,6 +57,13 @@ def dimensions(wall: Wall, low: float, high: float) -> tuple[Dimension, ...]:
         case Swept():
             size = float(wall.scale(np.array([low]))[0])
             return (*_outline(wall.outline, size, wall.twist * (low - wall.height)), *_moves(wall, low, high))
+        case Ruled():
+            below, above = wall.area(np.array([low, high])).tolist()
+            return (
+                _count("edges", len(wall.bottom.chain()[1])),
+                Dimension("area below", below, "area"),
+                Dimension("area above", above, "area"),
+            )
         case Lofted():
             ends = wall.area(np.array([low, high])).tolist()
             along, around = (

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from sketchloft.cloud import Floats
+from sketchloft.dispersion import dispersion
 from sketchloft.exact.body import ExactBody
-from sketchloft.exact.dispersion import dispersion
 from sketchloft.exact.model import ExactModel
 from sketchloft.report.dimensions import dimensions
 from sketchloft.stack import Run

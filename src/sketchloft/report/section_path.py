@@ -10,6 +10,7 @@ from sketchloft.shapes.spline import ClosedSpline
 from sketchloft.stack import Wall
 from sketchloft.wall.lofted import Lofted
 from sketchloft.wall.revolved import Revolved, radius_at
+from sketchloft.wall.ruled import Ruled
 from sketchloft.wall.swept import Swept
 
 __all__ = ["section_path"]
@@ -28,6 +29,10 @@ def section_path(wall: Wall, height: float) -> Floats:
             return np.asarray(centre + radius * np.column_stack([np.cos(TURN), np.sin(TURN)]))
         case Swept():
             return _swept(wall, height)
+        case Ruled():
+            tau = np.linspace(-1, 1, ARC_STEPS + 1)
+            path = wall.ring(np.array([height]), tau)[0].reshape(-1, 2)
+            return np.concatenate([path, path[:1]])
         case Lofted():
             return wall.ring(np.array([height]), np.arange(STEPS + 1) / STEPS)[0]
 

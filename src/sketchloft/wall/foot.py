@@ -25,12 +25,15 @@ class WallFoot:
         Derivative of the distance by the wall's parameters.
     curvature : (n,) float array
         Sum of the principal curvatures, positive where the wall is convex.
+    by_ends : (n, 2) float array, optional
+        Derivative of the distance by the heights of the breaks, where the wall ends with them.
     """
 
     distance: Floats
     normal: Floats
     gradient: Floats
     curvature: Floats
+    by_ends: Floats | None = None
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,65 @@
+"""Profile start: a free profile whose sections hold the second moments that the points have."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from sketchloft.cloud import Floats
+from sketchloft.surface import basis_matrix, even_knots
+from sketchloft.wall.profile import SplineProfile
+from sketchloft.wall.revolved import Revolved
+
+__all__ = ["profile_start"]
+
+HEIGHTS = 60
+"""Heights at which the radii are taken over from the fit of their squares."""
+WIDER = (1.5, 1.2)
+"""Points farther out than so many radii are strays, in each round."""
+STIFF = 1e-3
+LEAST = 1e-4
+"""Smallest square of a radius, in that of the widest section."""
+
+
+def profile_start(
+    points: Floats, centre: Floats, near: tuple[Floats, Floats], ends: tuple[float, float], spans: int
+) -> Revolved:
+    """Free profile about an axis, found from how far the points lie from it.
+
+    The mean squared distance of points spread evenly over a disk is half its squared radius, so that the
+    squares of the radii are a linear regression on the points, with no slab flattened.
+
+    Parameters
+    ----------
+    points : (n, 3) float array
+    centre : (2,) float array
+        Of the axis.
+    near : (m,) float array and (m,) float array
+        Heights and radii of a profile nearby, to tell strays by.
+    ends : (low, high)
+        Heights.
+    spans : int
+        Knot spans.
+    """
+    low, high = ends
+    margin = 0.05 * (high - low) + 0.01
+    knots = even_knots(low - margin, high + margin, spans)
+    inner = points[(points[:, 2] > low) & (points[:, 2] < high)]
+    square = ((inner[:, :2] - centre) ** 2).sum(axis=1)
+    basis = basis_matrix(knots, SplineProfile.degree, inner[:, 2])
+    stiff = np.diff(np.eye(basis.shape[1]), 2, axis=0)
+    r = np.interp(inner[:, 2], *near)
+    for wider in WIDER:
+        # A squared distance spreads as the squared radius does.
+        weight = (square < (wider * r) ** 2) / np.maximum(r, 1e-3 * float(r.max(initial=1e-3))) ** 2
+        rows = np.concatenate([weight[:, None] * basis, STIFF * float(weight.sum()) / len(stiff) * stiff])
+        target = np.r_[weight * 2 * square, np.zeros(len(stiff))]
+        squares = np.linalg.lstsq(rows, target, rcond=None)[0]
+        fitted = basis @ squares
+        r = np.sqrt(np.maximum(fitted, LEAST * float(fitted.max(initial=0.0))))
+    z = np.linspace(low, high, HEIGHTS)
+    at = basis_matrix(knots, SplineProfile.degree, z)
+    across = at @ squares
+    wall = np.sqrt(np.maximum(across, LEAST * float(across.max())))
+    rows = np.concatenate([at, STIFF * stiff])
+    poles = np.linalg.lstsq(rows, np.r_[wall, np.zeros(len(stiff))], rcond=None)[0]
+    return Revolved(centre, SplineProfile(knots, poles))

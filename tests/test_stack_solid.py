@@ -30,7 +30,7 @@ from sketchloft.outline.outline import Outline
 from sketchloft.outline.placed_polygons import Rectangle, RegularPolygon, RoundedRectangle
 from sketchloft.outline.polygons import LineArc, Polygon
 from sketchloft.outline.spline_loop import spline_loop
-from sketchloft.stack import Run, Stack, Wall, spanned
+from sketchloft.stack import Run, Stack, Wall
 from sketchloft.stack_distance import distance_from_stack
 from sketchloft.stack_volume import stack_volume
 from sketchloft.wall.lofted import lofted
@@ -49,8 +49,7 @@ KIDNEY = np.array(
 
 
 def stack(breaks: list[float], *runs: Wall | Run) -> Stack:
-    rows = tuple(run if isinstance(run, Run) else Run((run,)) for run in runs)
-    return spanned(Stack(np.array(breaks), rows))
+    return Stack(np.array(breaks), tuple(run if isinstance(run, Run) else Run((run,)) for run in runs))
 
 
 def cylinder(radius: float, at: Floats = AXIS) -> Revolved:
@@ -214,13 +213,13 @@ CASES: dict[str, tuple[Stack, dict[str, int]]] = {
         stack([0, 0.3, 0.8], swept(ELLIPSE), swept(ELLIPSE, 0.3, bow=2.0)),
         {"BSplineSurface": 1, "Plane": 1, "SurfaceOfLinearExtrusion": 1},
     ),
-    "square to round": (stack([0, 0.8], Ruled(SQUARE, ROUND)), {"BSplineSurface": 4, "Plane": 2}),
+    "square to round": (stack([0, 0.8], Ruled(SQUARE, ROUND, 0.0, 0.8)), {"BSplineSurface": 4, "Plane": 2}),
     "between two rectangles": (
-        stack([0, 0.8], Ruled(Rectangle(AXIS, 0.8, 0.4, 0), Rectangle(AXIS, 0.3, 0.5, 0))),
+        stack([0, 0.8], Ruled(Rectangle(AXIS, 0.8, 0.4, 0), Rectangle(AXIS, 0.3, 0.5, 0), 0.0, 0.8)),
         {"Plane": 6},
     ),
     "square, turned": (
-        stack([0, 0.8], Ruled(SQUARE, RegularPolygon(AXIS, 0.4, 0.4, 4))),
+        stack([0, 0.8], Ruled(SQUARE, RegularPolygon(AXIS, 0.4, 0.4, 4), 0.0, 0.8)),
         {"BSplineSurface": 4, "Plane": 2},
     ),
     "crossing sections": (

@@ -65,11 +65,13 @@ class Stack:
 
 
 def spanned(stack: Stack) -> Stack:
-    """Put the outlines of ruled walls at the breaks of their runs."""
-    if not any(isinstance(wall, Ruled) for run in stack.runs for wall in run.walls):
+    """Let ruled and lofted walls begin and end at the breaks of their runs."""
+    if not any(isinstance(wall, (Ruled, Lofted)) for run in stack.runs for wall in run.walls):
         return stack
     runs = tuple(
-        replace(run, walls=tuple(w.between(low, high) if isinstance(w, Ruled) else w for w in run.walls))
+        replace(
+            run, walls=tuple(w.between(low, high) if isinstance(w, (Ruled, Lofted)) else w for w in run.walls)
+        )
         for run, low, high in stack.slabs()
     )
     return replace(stack, runs=runs)

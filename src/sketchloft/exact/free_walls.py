@@ -88,7 +88,7 @@ def _promising(points: Floats, model: ExactModel, runs: range, together: float) 
     """Whether the points leave enough unexplained for the simplest loft to pay."""
     around, spans = LOFTS[0][0]
     held = sum(len(wall.vector) for j in runs for wall in model.stack.runs[j].walls)
-    more = 2 * around * (spans + Lofted.degree) - held
+    more = around * (spans + Lofted.degree) - held
     return HOPE * misfit(points, model, runs, together) > price(more, len(points), together) + GAIN
 
 

@@ -7,7 +7,8 @@ import itertools
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.exact.section_contours import contours
+from sketchloft.dispersion import clump
+from sketchloft.exact.section_contours import contours, plan_view
 from sketchloft.shapes.spline import fit_spline, resampled
 from sketchloft.surface import basis_matrix, even_knots
 from sketchloft.wall.lofted import Lofted, lofted
@@ -49,13 +50,14 @@ def loft_start(
         slab = inner[(inner[:, 2] >= bottom) & (inner[:, 2] <= top)]
         if len(slab) < FEWEST:
             return None
-        outer, holes, _ = contours(slab[:, :2], together)
+        # Moved along its rule, a slanted or tapered slab shows the section that it has in its middle.
+        plan = plan_view(slab, clump(together))
+        outer, holes, _ = contours(plan.points, together)
         if len(outer) != 1 or holes:
             return None
-        heights.append(float(slab[:, 2].mean()))
+        heights.append(plan.height)
         rings.append(_matched(outer[0], rings[-1] if rings else None))
-    margin = 0.06 * (high - low) + 0.01
-    knots = even_knots(low - margin, high + margin, spans)
+    knots = even_knots(low, high, spans)
     sections = np.array([fit_spline(ring, around).poles for ring in rings])
     basis = basis_matrix(knots, Lofted.degree, np.array(heights))
     smooth = 0.05 * np.diff(np.eye(basis.shape[1]), 2, axis=0)

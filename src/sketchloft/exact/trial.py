@@ -19,6 +19,8 @@ __all__ = ["MOST_NOISE", "Change", "tried", "worth"]
 BESIDE = 6.0
 """Noise deviations from the walls within which points decide."""
 STEPS = (2, 4)
+SETTLED = 12
+"""Steps after which the noise of a model is the one that suits it."""
 HOPELESS = 40.0
 """A change that is still so much worse after the first few steps is given up."""
 HOPE = 2.0
@@ -87,24 +89,27 @@ def tried(
     near = _around(points, model, candidate, runs)
     if not len(near):
         return None
+    # Where the density is fitted anew, the points inside say how well it fits.
+    judges = points if free else near
     if free:
-        model, _, _ = climb(near, model, STEPS[1], noise=True, most=MOST_NOISE)
+        model, _, _ = climb(near, fit_density(points, model, 1), SETTLED, noise=True, most=MOST_NOISE)
+        model = fit_density(points, model, 1)
     count = len(points)
-    least = worth(near, model, together, count) + change.handicap
+    least = worth(judges, model, together, count) + change.handicap
     if change.nested and HOPE * promise(near, candidate) / together < least - worth(
         near, candidate, together, count
     ):
         return None
     wide = range(max(runs.start - 1, 0), min(runs.stop + 1, len(candidate.stack.runs)))
-    for steps in STEPS:
+    for steps in (*STEPS, SETTLED) if free else STEPS:
         candidate, _, _ = climb(near, candidate, steps, runs=wide)
-        if worth(near, candidate, together, count) < least - (PATIENCE if free else HOPELESS):
+        if worth(judges, candidate, together, count) < least - (PATIENCE if free else HOPELESS):
             return None
         if free:
             candidate = fit_density(points, candidate, 1)
             candidate, _, _ = climb(near, candidate, steps, runs=wide, noise=True, most=MOST_NOISE)
     candidate = natural_joins(candidate)
-    return candidate if worth(near, candidate, together, count) > least else None
+    return candidate if worth(judges, candidate, together, count) > least else None
 
 
 def worth(points: Floats, model: ExactModel, together: float, count: int) -> float:

@@ -27,7 +27,7 @@ class Lofted:
     ----------
     poles : (nv, nu, 2) float array
     knots : (nv + 4,) float array
-        Clamped knots, in heights.
+        Clamped knots, in heights, from break to break of the run.
     base, normals : (nv, nu, 2) float array
         Each pole moves from its base along its unit normal, so that none slides along the wall.
     """
@@ -49,6 +49,16 @@ class Lofted:
         """Return the wall with other displacements."""
         shift = vector.reshape(self.base.shape[:2])
         return replace(self, poles=self.base + shift[..., None] * self.normals)
+
+    def between(self, low: float, high: float) -> Self:
+        """Return the wall stretched to other heights."""
+        first, last = self.knots[0], self.knots[-1]
+        if (first, last) == (low, high):
+            return self
+        knots = np.where(
+            self.knots < last, low + (self.knots - first) * ((high - low) / (last - first)), high
+        )
+        return replace(self, knots=knots)
 
     def ring(self, heights: Floats, u: Floats, u_derivative: int = 0, z_derivative: int = 0) -> Floats:
         """Points (m, k, 2) at heights (m,) and parameters u (k,), or their derivatives."""
@@ -89,7 +99,9 @@ class Lofted:
         gradient = self._gradient(z, u, across) * -c[:, None]
         bend = (d1[:, 0] * d2[:, 1] - d1[:, 1] * d2[:, 0]) / speed**3
         normal = np.column_stack([across, slope]) * c[:, None]
-        return WallFoot(c * side * flat, normal, gradient, c * bend)
+        share = (z - self.knots[0]) / (self.knots[-1] - self.knots[0])
+        by_ends = -normal[:, 2:] * np.column_stack([1 - share, share])
+        return WallFoot(c * side * flat, normal, gradient, c * bend, by_ends)
 
     def _gradient(self, z: Floats, u: Floats, across: Floats) -> Floats:
         """Movement (n, p) of the wall across itself by each pole's displacement; 16 poles matter."""

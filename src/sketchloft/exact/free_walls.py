@@ -11,7 +11,7 @@ from sketchloft.exact.model import ExactModel
 from sketchloft.exact.ruled_start import ruled_start
 from sketchloft.exact.schwarz import price
 from sketchloft.exact.surgery import with_runs
-from sketchloft.exact.trial import Change, tried
+from sketchloft.exact.trial import Change, tried_free
 from sketchloft.stack import Run
 from sketchloft.wall.lofted import Lofted
 from sketchloft.wall.revolved import Revolved
@@ -61,7 +61,7 @@ def ruled(points: Floats, model: ExactModel, together: float) -> ExactModel:
             wall = ruled_start(points, ends, together)
             if wall is not None:
                 change = with_runs(model, start, stop - 1, Run((wall,)))
-                better = tried(points, model, Change(change, range(start, start + 1)), together, free=True)
+                better, _ = tried_free(points, model, Change(change, range(start, start + 1)), together)
                 model, stop = (better, start + 1) if better is not None else (model, stop)
         start = stop
     return model
@@ -71,16 +71,17 @@ def _best_loft(points: Floats, model: ExactModel, runs: range, together: float) 
     ends = float(model.stack.breaks[runs.start]), float(model.stack.breaks[runs.stop])
     best: ExactModel | None = None
     for sizes in LOFTS:
+        last = -np.inf
         for around, spans in sizes:
             wall = loft_start(points, ends, around, spans, together)
             if wall is None:
                 continue
             change = with_runs(model, runs.start, runs.stop - 1, Run((wall,)))
             found = Change(change, range(runs.start, runs.start + 1), GAIN)
-            better = tried(points, best or model, found, together, free=True)
-            if better is None and best is not None:
+            better, gain = tried_free(points, best or model, found, together)
+            if better is None and (best is not None or gain < last):
                 break
-            best = better or best
+            best, last = better or best, gain
     return best
 
 

@@ -14,7 +14,7 @@ from sketchloft.exact.model import ExactModel
 from sketchloft.exact.schwarz import price
 from sketchloft.exact.soundness import detached
 
-__all__ = ["MOST_NOISE", "Change", "tried", "worth"]
+__all__ = ["MOST_NOISE", "Change", "tried", "tried_free", "worth"]
 
 BESIDE = 6.0
 """Noise deviations from the walls within which points decide."""
@@ -66,9 +66,7 @@ class Change:
         return kinds, self.runs, self.model.vector.tobytes(), self.model.stack.breaks.tobytes()
 
 
-def tried(
-    points: Floats, model: ExactModel, change: Change, together: float, *, free: bool = False
-) -> ExactModel | None:
+def tried(points: Floats, model: ExactModel, change: Change, together: float) -> ExactModel | None:
     """Fit a changed model around its change; None if it does not pay.
 
     Parameters
@@ -79,37 +77,55 @@ def tried(
     change : Change
     together : float
         How many of the points go together.
-    free : bool
-        Whether the change is a free wall. A bad model is a noisy one and a better one need not be, so that
-        then both are judged with the noise that suits them; and a free wall has farther to go.
     """
     candidate, runs = change.model, change.runs
-    if free:
-        candidate = replace(candidate, sigma=min(candidate.sigma, SHARP))
     near = _around(points, model, candidate, runs)
     if not len(near):
         return None
-    # Where the density is fitted anew, the points inside say how well it fits.
-    judges = points if free else near
-    if free:
-        model, _, _ = climb(near, fit_density(points, model, 1), SETTLED, noise=True, most=MOST_NOISE)
-        model = fit_density(points, model, 1)
     count = len(points)
-    least = worth(judges, model, together, count) + change.handicap
+    least = worth(near, model, together, count) + change.handicap
     if change.nested and HOPE * promise(near, candidate) / together < least - worth(
         near, candidate, together, count
     ):
         return None
-    wide = range(max(runs.start - 1, 0), min(runs.stop + 1, len(candidate.stack.runs)))
-    for steps in (*STEPS, SETTLED) if free else STEPS:
-        candidate, _, _ = climb(near, candidate, steps, runs=wide)
-        if worth(judges, candidate, together, count) < least - (PATIENCE if free else HOPELESS):
+    for steps in STEPS:
+        candidate, _, _ = climb(near, candidate, steps, runs=_with_neighbours(candidate, runs))
+        if worth(near, candidate, together, count) < least - HOPELESS:
             return None
-        if free:
-            candidate = fit_density(points, candidate, 1)
-            candidate, _, _ = climb(near, candidate, steps, runs=wide, noise=True, most=MOST_NOISE)
     candidate = natural_joins(candidate)
-    return candidate if worth(judges, candidate, together, count) > least else None
+    return candidate if worth(near, candidate, together, count) > least else None
+
+
+def tried_free(
+    points: Floats, model: ExactModel, change: Change, together: float
+) -> tuple[ExactModel | None, float]:
+    """Fit a change to a free wall, as `tried`, and say by how much more than it must it gains.
+
+    A bad model is a noisy one and a better one need not be, so that both are judged with the noise and the
+    density that suit them; and a free wall has farther to go.
+    """
+    candidate, runs = replace(change.model, sigma=min(change.model.sigma, SHARP)), change.runs
+    near = _around(points, model, candidate, runs)
+    if not len(near):
+        return None, -np.inf
+    count = len(points)
+    model, _, _ = climb(near, fit_density(points, model, 1), SETTLED, noise=True, most=MOST_NOISE)
+    # Where the density is fitted anew, the points inside say how well it fits.
+    least = worth(points, fit_density(points, model, 1), together, count) + change.handicap
+    wide = _with_neighbours(candidate, runs)
+    gain = -np.inf
+    for steps in (*STEPS, SETTLED):
+        candidate, _, _ = climb(_beside(near, candidate), candidate, steps, runs=wide)
+        gain = worth(points, candidate, together, count) - least
+        if gain < -PATIENCE:
+            return None, gain
+        candidate = fit_density(points, candidate, 1)
+        candidate, _, _ = climb(
+            _beside(near, candidate), candidate, steps, runs=wide, noise=True, most=MOST_NOISE
+        )
+    candidate = natural_joins(candidate)
+    gain = worth(points, candidate, together, count) - least
+    return candidate if gain > 0 else None, gain
 
 
 def worth(points: Floats, model: ExactModel, together: float, count: int) -> float:
@@ -119,6 +135,14 @@ def worth(points: Floats, model: ExactModel, together: float, count: int) -> flo
     runs = len(lengths) * float(np.log(count / together)) + SHORTNESS * float(short.sum())
     runs += DETACHED * detached(model)
     return value_of(points, model) / together - (price(model.parameters, count, together) + runs)
+
+
+def _with_neighbours(model: ExactModel, runs: range) -> range:
+    return range(max(runs.start - 1, 0), min(runs.stop + 1, len(model.stack.runs)))
+
+
+def _beside(points: Floats, model: ExactModel) -> Floats:
+    return points[beside_walls(points, model, BESIDE * model.sigma)]
 
 
 def _around(points: Floats, model: ExactModel, candidate: ExactModel, runs: range) -> Floats:

@@ -13,10 +13,10 @@ from sketchloft.exact.joins import sole_profile
 from sketchloft.exact.model import ExactModel
 from sketchloft.exact.simpler_walls import profiles_like, walls_like
 from sketchloft.exact.surgery import with_run, with_runs, with_split, without_run
-from sketchloft.exact.trial import Change
+from sketchloft.exact.trial import Change, free_gain
 from sketchloft.stack import Run, Wall
 from sketchloft.wall.profile import Profile, SplineProfile
-from sketchloft.wall.revolved import radius_at
+from sketchloft.wall.revolved import Revolved, radius_at, sizes
 from sketchloft.wall.swept import Freedom, Swept
 
 __all__ = ["merges", "splits", "swaps"]
@@ -85,7 +85,7 @@ def splits(model: ExactModel) -> Iterator[Change]:
         r = radius_at(wall.profile, z)[0]
         last = SPLIT_SAMPLES - 1
         fits = {
-            (a, b): _closest(z[a : b + 1], r[a : b + 1])
+            (a, b): _closest(z[a : b + 1], r[a : b + 1], model.sigma)
             for a in range(last)
             for b in range(a + SHORTEST, last + 1)
         }
@@ -97,12 +97,16 @@ def splits(model: ExactModel) -> Iterator[Change]:
             best = min(cuts, key=lambda cut: sum(fits[pair][0] for pair in pairwise(cut)))
             walls = [replace(wall, profile=fits[pair][1]) for pair in pairwise(best)]
             heights = [float(z[k]) for k in best[1:-1]]
-            yield Change(with_split(model, j, heights, walls), range(j, j + len(walls)))
+            split = with_split(model, j, heights, walls)
+            yield Change(split, range(j, j + len(walls)), -free_gain(len(walls)), free=True)
 
 
-def _closest(z: Floats, r: Floats) -> tuple[float, Profile]:
-    """Squares left by the line or arc nearest to a profile, and that."""
-    fits = [(float(((radius_at(p, z)[0] - r) ** 2).sum()), p) for p in profiles_like(z, r)]
+def _closest(z: Floats, r: Floats, noise: float) -> tuple[float, Profile]:
+    """What a line or arc costs in the place of a profile (Akaike's criterion), and the best one."""
+    fits = [
+        (float((((radius_at(p, z)[0] - r) / noise) ** 2).sum()) + 2 * sizes(p), p)
+        for p in profiles_like(z, r)
+    ]
     return min(fits, key=lambda fit: fit[0])
 
 
@@ -113,7 +117,13 @@ def swaps(model: ExactModel) -> Iterator[Change]:
             for other in walls_like(wall, low, high):
                 walls = (*run.walls[:i], other, *run.walls[i + 1 :])
                 nested = _extends(wall, other)
-                yield Change(with_run(model, j, Run(walls, run.holes)), range(j, j + 1), nested=nested)
+                free = _is_free(wall)
+                changed = with_run(model, j, Run(walls, run.holes))
+                yield Change(changed, range(j, j + 1), -free_gain(1) if free else 0.0, nested, free)
+
+
+def _is_free(wall: Wall) -> bool:
+    return isinstance(wall, Revolved) and isinstance(wall.profile, SplineProfile)
 
 
 def _extends(wall: Wall, other: Wall) -> bool:

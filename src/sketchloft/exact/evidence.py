@@ -11,7 +11,7 @@ from sketchloft.exact.changes import merges, splits, swaps
 from sketchloft.exact.free_profiles import splined
 from sketchloft.exact.free_walls import lofted, ruled
 from sketchloft.exact.model import ExactModel
-from sketchloft.exact.trial import Change, tried
+from sketchloft.exact.trial import Change, tried, worth
 
 __all__ = ["improved", "without_slivers"]
 
@@ -33,7 +33,22 @@ def improved(points: Floats, model: ExactModel, together: float, *, lofts: bool 
         How many of the points go together.
     lofts : bool
         Whether free lofts are tried.
+
+    Notes
+    -----
+    A change that pays may bar the way to a better one: what is merged first is no chain that a free profile
+    could stand in for. So both ways are gone where there is one, and the better end is taken.
     """
+    found = _changed(points, model, together, lofts=lofts)
+    smooth = splined(points, model, together)
+    if smooth is model:
+        return found
+    other = _changed(points, smooth, together, lofts=lofts)
+    return max(found, other, key=lambda end: worth(points, end, together, len(points)))
+
+
+def _changed(points: Floats, model: ExactModel, together: float, *, lofts: bool) -> ExactModel:
+    """Look through all kinds of changes as long as one pays."""
     failed: set[tuple[object, ...]] = set()
     for _ in range(ROUNDS):
         before = model

@@ -24,6 +24,7 @@ STRAY_MOST = 0.06
 """Largest share of strays."""
 MOST_CHANGE = 0.5
 """Largest change of the logarithm of the density in one round, lest it run away with a shrinking model."""
+TINY = 1e-12
 STRIDE = 3.0
 """How far a single parameter may move a wall in one step, in noise deviations."""
 
@@ -145,7 +146,7 @@ def _step(now: Evaluation, free: Bools, damping: float, sigma: float) -> Floats:
     floor = 1e-9 * max(float(diagonal.max(initial=0.0)), 1.0) + (0.1 * now.reach[index] / sigma) ** 2
     information = information + np.diag(damping * diagonal + floor * max(damping, 1e-3))
     raw = np.linalg.solve(information + 1e-12 * np.eye(len(index)), now.score[index])
-    limit = STRIDE * sigma / now.reach[index]
+    limit = STRIDE * sigma / np.maximum(now.reach[index], TINY)
     limit[index == len(free) - 1] = 0.5
     step[index] = np.clip(raw, -limit, limit)
     return step

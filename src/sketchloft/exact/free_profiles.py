@@ -9,16 +9,12 @@ from sketchloft.exact.joins import sole_profile
 from sketchloft.exact.model import ExactModel
 from sketchloft.exact.profile_start import profile_start
 from sketchloft.exact.surgery import with_runs
-from sketchloft.exact.trial import Change, tried
+from sketchloft.exact.trial import Change, free_gain, tried
 from sketchloft.stack import Run
 from sketchloft.wall.revolved import Revolved, radius_at
 
 __all__ = ["splined"]
 
-GAIN = 20.0
-"""What a free profile must gain over two lines or arcs."""
-GAIN_CHAIN = 6.0
-"""The same over three of them or more: a designer draws so many rarely where one curve would do."""
 SPANS = (4, 7, 11)
 """Knot spans that are tried."""
 
@@ -37,8 +33,10 @@ def splined(points: Floats, model: ExactModel, together: float) -> ExactModel:
             source, last = (model, stop) if best is None else (best, start + 1)
             wall = _spline_through(points, source, start, last, spans)
             change = with_runs(source, start, last - 1, Run((wall,)))
-            handicap = 0.0 if best is not None else GAIN if stop - start < 3 else GAIN_CHAIN
-            better = tried(points, source, Change(change, range(start, start + 1), handicap), together)
+            handicap = free_gain(stop - start) if best is None else 0.0
+            better = tried(
+                points, source, Change(change, range(start, start + 1), handicap, free=True), together
+            )
             if better is None and (best is not None or stop - start == 1):
                 break
             best = better or best

@@ -23,7 +23,7 @@ GAIN = 20.0
 """What a free wall must gain."""
 HOPE = 5.0
 """How much more a loft may gain than the misfit shows, which counts points where walls weigh them."""
-LOFTS = (((12, 2), (16, 4), (24, 4)), ((16, 1), (24, 1)))
+LOFTS = (((12, 2), (12, 4), (24, 4)), ((16, 1), (24, 1)))
 """Poles around and spans along of the free lofts that are tried, each list as long as it pays."""
 
 
@@ -73,15 +73,22 @@ def _best_loft(points: Floats, model: ExactModel, runs: range, together: float) 
     for sizes in LOFTS:
         last = -np.inf
         for around, spans in sizes:
-            wall = loft_start(points, ends, around, spans, together)
+            held = None if best is None else best.stack.runs[runs.start].walls[0]
+            if isinstance(held, Lofted):
+                wall: Lofted | None = held.refined(around, spans)
+            else:
+                wall = loft_start(points, ends, around, spans, together)
             if wall is None:
                 continue
-            change = with_runs(model, runs.start, runs.stop - 1, Run((wall,)))
-            found = Change(change, range(runs.start, runs.start + 1), GAIN)
+            source, last_run = (model, runs.stop - 1) if best is None else (best, runs.start)
+            change = with_runs(source, runs.start, last_run, Run((wall,)))
+            found = Change(change, range(runs.start, runs.start + 1), GAIN if best is None else 0.0)
             better, gain = tried_free(points, best or model, found, together)
             if better is None and (best is not None or gain < last):
                 break
             best, last = better or best, gain
+        if best is not None:
+            break
     return best
 
 

@@ -14,7 +14,7 @@ from sketchloft.exact.model import ExactModel
 from sketchloft.exact.schwarz import price
 from sketchloft.exact.soundness import detached
 
-__all__ = ["MOST_NOISE", "Change", "tried", "tried_free", "worth"]
+__all__ = ["MOST_NOISE", "Change", "free_gain", "tried", "tried_free", "worth"]
 
 BESIDE = 6.0
 """Noise deviations from the walls within which points decide."""
@@ -31,6 +31,10 @@ SHARP = 0.006
 """Noise that a free wall starts with at most."""
 MOST_NOISE = 0.012
 """Largest noise that is believed, as a share of the size; more is a wall in the wrong place."""
+FREE_GAIN = 20.0
+"""What a free profile must gain over lines and arcs."""
+CHAIN_GAIN = 6.0
+"""The same over three of them or more: a designer draws so many rarely where one curve would do."""
 SHORT = 8.0
 """Runs shorter than so many noise deviations are taken for noise unless they gain a lot."""
 DETACHED = 300.0
@@ -52,18 +56,26 @@ class Change:
         What it must gain beside its price.
     nested : bool
         Whether the model before it is a special case of it, which it starts from.
+    free : bool
+        Whether it puts a free wall in or takes one out, so that `tried_free` judges it.
     """
 
     model: ExactModel
     runs: range
     handicap: float = 0.0
     nested: bool = False
+    free: bool = False
 
     @property
     def key(self) -> tuple[object, ...]:
         """The same for changes that start from the same numbers."""
         kinds = tuple(wall.kind for run in self.model.stack.runs for wall in run.walls)
         return kinds, self.runs, self.model.vector.tobytes(), self.model.stack.breaks.tobytes()
+
+
+def free_gain(walls: int) -> float:
+    """What a free profile must gain over so many lines and arcs."""
+    return FREE_GAIN if walls < 3 else CHAIN_GAIN
 
 
 def tried(points: Floats, model: ExactModel, change: Change, together: float) -> ExactModel | None:
@@ -78,6 +90,8 @@ def tried(points: Floats, model: ExactModel, change: Change, together: float) ->
     together : float
         How many of the points go together.
     """
+    if change.free:
+        return tried_free(points, model, change, together)[0]
     candidate, runs = change.model, change.runs
     near = _around(points, model, candidate, runs)
     if not len(near):
@@ -105,6 +119,7 @@ def tried_free(
     density that suit them; and a free wall has farther to go.
     """
     candidate, runs = replace(change.model, sigma=min(change.model.sigma, SHARP)), change.runs
+    sigma = model.sigma
     near = _around(points, model, candidate, runs)
     if not len(near):
         return None, -np.inf
@@ -125,7 +140,7 @@ def tried_free(
         )
     candidate = natural_joins(candidate)
     gain = worth(points, candidate, together, count) - least
-    return candidate if gain > 0 else None, gain
+    return replace(candidate, sigma=sigma) if gain > 0 else None, gain
 
 
 def worth(points: Floats, model: ExactModel, together: float, count: int) -> float:

@@ -7,9 +7,9 @@ from typing import ClassVar, Self
 
 import numpy as np
 
-from sketchloft.cloud import Floats
-from sketchloft.outline.periodic_cubic import basis_at, locate
-from sketchloft.surface import basis_matrix, local_basis
+from sketchloft.cloud import Floats, Ints
+from sketchloft.outline.periodic_cubic import basis_at, locate, pieces
+from sketchloft.surface import basis_matrix, even_knots, local_basis
 from sketchloft.wall.foot import WallBoundary, WallFoot
 
 __all__ = ["Lofted", "lofted"]
@@ -17,6 +17,7 @@ __all__ = ["Lofted", "lofted"]
 PER_POLE = 6
 """Samples of a section per pole, from which the foot of a point is searched."""
 NEWTON = 3
+BLOCK = 4096
 
 
 @dataclass(frozen=True)
@@ -60,6 +61,16 @@ class Lofted:
         )
         return replace(self, knots=knots)
 
+    def refined(self, around: int, spans: int) -> Lofted:
+        """Return the wall with other numbers of poles around and of spans along, as near to it as can be."""
+        knots = even_knots(float(self.knots[0]), float(self.knots[-1]), spans)
+        heights = np.linspace(knots[0], knots[-1], 4 * (len(knots) - self.degree))
+        u = np.arange(8 * around) / (8 * around)
+        rings = self.ring(heights, u)
+        along = np.linalg.pinv(basis_matrix(knots, self.degree, heights))
+        across = np.linalg.pinv(_around(u, around, 0))
+        return lofted(np.einsum("im,jk,mkd->ijd", along, across, rings), knots)
+
     def ring(self, heights: Floats, u: Floats, u_derivative: int = 0, z_derivative: int = 0) -> Floats:
         """Points (m, k, 2) at heights (m,) and parameters u (k,), or their derivatives."""
         along = basis_matrix(self.knots, self.degree, heights, z_derivative)
@@ -76,25 +87,26 @@ class Lofted:
     def foot(self, points: Floats) -> WallFoot:
         """Signed distance of points (n, 3), and its derivatives."""
         z = np.clip(points[:, 2], self.knots[0], self.knots[-1])
-        along = basis_matrix(self.knots, self.degree, z)
-        u = self._nearest(points[:, :2], z)
         count = self.poles.shape[1]
-        rows = np.einsum("ni,ijd->njd", along, self.poles)
+        cells = np.stack([pieces(row) for row in self.poles]).transpose(0, 3, 1, 2).reshape(-1, count, 8)
+        first, along = local_basis(self.knots, self.degree, z)
+        rows = first[:, None] + np.arange(self.degree + 1)
+        u = self._nearest(points[:, :2], z)
         for _ in range(NEWTON):
-            at, d1, d2 = (_ring_at(rows, u, k) for k in range(3))
+            at, d1, d2 = _curve(cells, rows, along, u)
             gap = at - points[:, :2]
-            first = np.einsum("ij,ij->i", gap, d1)
+            slide = np.einsum("ij,ij->i", gap, d1)
             second = np.einsum("ij,ij->i", d1, d1)
             full = second + np.einsum("ij,ij->i", gap, d2)
-            u = u - np.clip(first / np.where(full > 0.2 * second, full, second), -0.5 / count, 0.5 / count)
-        at, d1, d2 = (_ring_at(rows, u, k) for k in range(3))
+            u = u - np.clip(slide / np.where(full > 0.2 * second, full, second), -0.5 / count, 0.5 / count)
+        at, d1, d2 = _curve(cells, rows, along, u)
         speed = np.maximum(np.hypot(d1[:, 0], d1[:, 1]), 1e-12)
         across = np.column_stack([d1[:, 1], -d1[:, 0]]) / speed[:, None]
         gap = points[:, :2] - at
         flat = np.hypot(gap[:, 0], gap[:, 1])
         side = np.sign(np.einsum("ij,ij->i", gap, across))
-        steep = np.einsum("ni,ijd->njd", basis_matrix(self.knots, self.degree, z, 1), self.poles)
-        slope = -np.einsum("ij,ij->i", across, _ring_at(steep, u, 0))
+        steep = _curve(cells, rows, local_basis(self.knots, self.degree, z, 1)[1], u)[0]
+        slope = -np.einsum("ij,ij->i", across, steep)
         c = 1 / np.hypot(1.0, slope)
         gradient = self._gradient(z, u, across) * -c[:, None]
         bend = (d1[:, 0] * d2[:, 1] - d1[:, 1] * d2[:, 0]) / speed**3
@@ -124,10 +136,10 @@ class Lofted:
         level = np.rint((z - heights[0]) / (heights[-1] - heights[0]) * (levels - 1)).astype(np.intp)
         rings = self.ring(heights, np.arange(count) / count)
         best = np.empty(len(z), dtype=np.intp)
-        for start in range(0, len(z), 4096):
-            part = slice(start, start + 4096)
-            gaps = rings[level[part]] - xy[part, None]
-            best[part] = np.argmin(np.einsum("nkd,nkd->nk", gaps, gaps), axis=1)
+        for start in range(0, len(z), BLOCK):
+            part = slice(start, start + BLOCK)
+            x, y = (rings[level[part], :, axis] - xy[part, axis, None] for axis in range(2))
+            best[part] = np.argmin(x * x + y * y, axis=1)
         return best / count
 
     def boundary(self, low: float, high: float, count: int) -> WallBoundary:
@@ -165,9 +177,15 @@ def _around(u: Floats, count: int, derivative: int) -> Floats:
     return matrix
 
 
-def _ring_at(rows: Floats, u: Floats, derivative: int) -> Floats:
-    """Points (n, 2), each on the ring of its own poles (n, count, 2), or derivatives by u."""
-    count = rows.shape[1]
-    columns, values = basis_at(*locate(u, count), count, derivative)
-    picked = np.take_along_axis(rows, columns[..., None], axis=1)
-    return np.einsum("nk,nkd->nd", values, picked)
+def _curve(cells: Floats, rows: Ints, along: Floats, u: Floats) -> tuple[Floats, Floats, Floats]:
+    """Points (n, 2), each on the ring at its own height, and their first and second derivatives by u."""
+    count = cells.shape[1]
+    span, t = locate(u, count)
+    picked = (along[..., None] * cells[rows, span[:, None]]).sum(axis=1).reshape(-1, 4, 2)
+    c0, c1, c2, c3 = picked.transpose(1, 0, 2)
+    t = t[:, None]
+    return (
+        c0 + t * (c1 + t * (c2 + t * c3)),
+        count * (c1 + t * (2 * c2 + 3 * t * c3)),
+        count**2 * (2 * c2 + 6 * t * c3),
+    )

@@ -12,7 +12,7 @@ from sketchloft.surface import basis_matrix
 from sketchloft.wall.foot import WallBoundary, WallFoot
 from sketchloft.wall.profile import ArcProfile, LineProfile, Profile, SplineProfile
 
-__all__ = ["Revolved", "radius_at"]
+__all__ = ["Revolved", "radius_at", "sizes"]
 
 GAUSS = np.polynomial.legendre.leggauss(8)
 SPAN_GAUSS = np.polynomial.legendre.leggauss(4)
@@ -123,6 +123,11 @@ def _heights(low: float, high: float, profile: Profile) -> tuple[Floats, Floats]
             angle
         )
     return (low + high) / 2 + (high - low) / 2 * x, w * (high - low) / 2
+
+
+def sizes(profile: Profile) -> int:
+    """Number of a profile's parameters."""
+    return len(_profile_vector(profile))
 
 
 def _profile_vector(profile: Profile) -> Floats:

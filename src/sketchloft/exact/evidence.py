@@ -50,14 +50,15 @@ def improved(points: Floats, model: ExactModel, together: float, *, lofts: bool 
 def _changed(points: Floats, model: ExactModel, together: float, *, lofts: bool) -> ExactModel:
     """Look through all kinds of changes as long as one pays."""
     failed: set[tuple[object, ...]] = set()
+    free: ExactModel | None = None
     for _ in range(ROUNDS):
         before = model
         model = _through(points, model, together, merges, failed, again=True)
         model = splined(points, model, together)
         model = _through(points, model, together, splits, failed)
         model = _through(points, model, together, swaps, failed)
-        model = ruled(points, model, together)
-        model = lofted(points, model, together) if lofts else model
+        if lofts and model is not free:
+            model = free = lofted(points, ruled(points, model, together), together)
         if model is before:
             break
     return model

@@ -21,9 +21,12 @@ __all__ = ["lofted", "ruled"]
 
 GAIN = 20.0
 """What a free wall must gain."""
+CHEAP = 2.5
+"""What each pole of a loft must gain. Where no line or circle does, poles are there to follow the points, and
+one that tells of more than chance brings the wall nearer to the truth (Akaike's criterion asks for 1)."""
 HOPE = 5.0
 """How much more a loft may gain than the misfit shows, which counts points where walls weigh them."""
-LOFTS = (((12, 2), (12, 4), (24, 4)), ((16, 1), (24, 1)))
+LOFTS = (((12, 2), (12, 4), (18, 4), (24, 6)), ((16, 1), (24, 1), (24, 3)))
 """Poles around and spans along of the free lofts that are tried, each list as long as it pays."""
 
 
@@ -55,7 +58,7 @@ def ruled(points: Floats, model: ExactModel, together: float) -> ExactModel:
             stop += 1
         runs = range(start, stop)
         walls = [model.stack.runs[j].walls for j in runs]
-        done = any(len(row) > 1 or isinstance(row[0], (Revolved, Ruled)) for row in walls)
+        done = any(len(row) > 1 or isinstance(row[0], (Revolved, Ruled, Lofted)) for row in walls)
         if not done and HOPE * misfit(points, model, runs, together) > GAIN:
             ends = float(model.stack.breaks[start]), float(model.stack.breaks[stop])
             wall = ruled_start(points, ends, together)
@@ -82,7 +85,9 @@ def _best_loft(points: Floats, model: ExactModel, runs: range, together: float) 
                 continue
             source, last_run = (model, runs.stop - 1) if best is None else (best, runs.start)
             change = with_runs(source, runs.start, last_run, Run((wall,)))
-            found = Change(change, range(runs.start, runs.start + 1), GAIN if best is None else 0.0)
+            more = change.size - source.size
+            handicap = (GAIN if best is None else 0.0) + CHEAP * more - price(more, len(points), together)
+            found = Change(change, range(runs.start, runs.start + 1), handicap)
             better, gain = tried_free(points, best or model, found, together)
             if better is None and (best is not None or gain < last):
                 break
@@ -97,7 +102,7 @@ def _promising(points: Floats, model: ExactModel, runs: range, together: float) 
     around, spans = LOFTS[0][0]
     held = sum(len(wall.vector) for j in runs for wall in model.stack.runs[j].walls)
     more = around * (spans + Lofted.degree) - held
-    return HOPE * misfit(points, model, runs, together) > price(more, len(points), together) + GAIN
+    return HOPE * misfit(points, model, runs, together) > CHEAP * more + GAIN
 
 
 def _smooth(model: ExactModel, k: int) -> bool:

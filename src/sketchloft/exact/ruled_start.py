@@ -22,6 +22,7 @@ SLAB = 0.12
 """Share of the stretch at either end whose points show the outline there."""
 FEWEST = 150
 """Points that such a slab needs."""
+MOST_POINTS = 1200
 RING = 720
 MOST_EDGES = 12
 ROUND = (RoundedPolygon, RoundedRectangle)
@@ -48,6 +49,7 @@ def ruled_start(points: Floats, ends: tuple[float, float], together: float) -> R
     outlines: list[Outline] = []
     for bottom, top in ((low, low + SLAB * (high - low)), (high - SLAB * (high - low), high)):
         slab = points[(points[:, 2] > bottom) & (points[:, 2] < top)]
+        slab = slab[:: len(slab) // MOST_POINTS + 1]
         shape = recognise_section(slab[:, :2], together) if len(slab) >= FEWEST else None
         if shape is None or shape.holes or len(shape.outlines) != 1:
             return None

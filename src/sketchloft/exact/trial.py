@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from sketchloft.cloud import Floats
 from sketchloft.exact.fit import climb, fit_density, promise
@@ -119,19 +120,27 @@ def tried_free(
     density that suit them; and a free wall has farther to go.
     """
     candidate, runs = replace(change.model, sigma=min(change.model.sigma, SHARP)), change.runs
-    sigma = model.sigma
-    near = _around(points, model, candidate, runs)
+    sigma, count = model.sigma, len(points)
+    here = _at_heights(points, candidate, runs)
+    inner, rest = points[here], points[~here]
+    near = inner[beside_walls(inner, model, BESIDE * sigma) | beside_walls(inner, candidate, BESIDE * sigma)]
     if not len(near):
         return None, -np.inf
-    count = len(points)
-    model, _, _ = climb(near, fit_density(points, model, 1), SETTLED, noise=True, most=MOST_NOISE)
-    # Where the density is fitted anew, the points inside say how well it fits.
-    least = worth(points, fit_density(points, model, 1), together, count) + change.handicap
+
+    def value(model: ExactModel) -> float:
+        """Worth by all points, those at other heights as ones inside, which the density matters to."""
+        others = float(np.log(model.density.at(rest)).sum()) / together
+        return worth(inner, model, together, count) + others
+
     wide = _with_neighbours(candidate, runs)
+    before = range(wide.start, wide.stop + len(model.stack.runs) - len(candidate.stack.runs))
+    model = fit_density(points, model, 1)
+    model, _, _ = climb(near, model, SETTLED, runs=before, noise=True, most=MOST_NOISE)
+    least = value(fit_density(points, model, 1)) + change.handicap
     gain = -np.inf
     for steps in (*STEPS, SETTLED):
         candidate, _, _ = climb(_beside(near, candidate), candidate, steps, runs=wide)
-        gain = worth(points, candidate, together, count) - least
+        gain = value(candidate) - least
         if gain < -PATIENCE:
             return None, gain
         candidate = fit_density(points, candidate, 1)
@@ -139,7 +148,7 @@ def tried_free(
             _beside(near, candidate), candidate, steps, runs=wide, noise=True, most=MOST_NOISE
         )
     candidate = natural_joins(candidate)
-    gain = worth(points, candidate, together, count) - least
+    gain = value(candidate) - least
     return replace(candidate, sigma=sigma) if gain > 0 else None, gain
 
 
@@ -162,9 +171,14 @@ def _beside(points: Floats, model: ExactModel) -> Floats:
 
 def _around(points: Floats, model: ExactModel, candidate: ExactModel, runs: range) -> Floats:
     """Points beside the walls of either model, at the heights of the new runs and their neighbours."""
-    breaks = candidate.stack.breaks
-    low = -np.inf if runs.start <= 1 else breaks[runs.start - 1]
-    high = np.inf if runs.stop >= len(breaks) - 2 else breaks[runs.stop + 1]
-    near = points[(points[:, 2] > low) & (points[:, 2] < high)]
+    near = points[_at_heights(points, candidate, runs)]
     width = BESIDE * model.sigma
     return near[beside_walls(near, model, width) | beside_walls(near, candidate, width)]
+
+
+def _at_heights(points: Floats, model: ExactModel, runs: range) -> NDArray[np.bool_]:
+    """(n,) whether points (n, 3) lie at the heights of runs and their neighbours."""
+    breaks = model.stack.breaks
+    low = -np.inf if runs.start <= 1 else breaks[runs.start - 1]
+    high = np.inf if runs.stop >= len(breaks) - 2 else breaks[runs.stop + 1]
+    return np.asarray((points[:, 2] > low) & (points[:, 2] < high))

@@ -75,7 +75,8 @@ class Lofted:
         """Points (m, k, 2) at heights (m,) and parameters u (k,), or their derivatives."""
         along = basis_matrix(self.knots, self.degree, heights, z_derivative)
         around = _around(u, self.poles.shape[1], u_derivative)
-        return np.einsum("mi,kj,ijd->mkd", along, around, self.poles)
+        rows = (along @ self.poles.reshape(len(self.poles), -1)).reshape(len(along), *self.poles.shape[1:])
+        return np.asarray(around @ rows)
 
     def area(self, heights: Floats) -> Floats:
         """Area of the sections at heights (m,)."""

@@ -19,12 +19,13 @@ from sketchloft.exact.first_stack import first_stack
 from sketchloft.exact.fit import climb, fit_density
 from sketchloft.exact.flush import flush
 from sketchloft.exact.inside_density import inside_density
+from sketchloft.exact.inward_gap import without_gap
 from sketchloft.exact.joins import natural_joins
 from sketchloft.exact.level_set import LevelSet, hollow_share, level_set, on_grid
 from sketchloft.exact.likelihood import beside_walls
 from sketchloft.exact.model import ExactModel, thicker
 from sketchloft.exact.segments import SegmentsParams, segments
-from sketchloft.exact.sharpen import sharpened
+from sketchloft.exact.sharpen import least_noise, sharpened
 from sketchloft.exact.trial import MOST_NOISE
 from sketchloft.exact.upright import upright
 from sketchloft.frame import Frame, frame_along, principal_frame
@@ -204,7 +205,8 @@ def _fitted(
     model = thicker(model, len(sample) / len(points))
     model = without_slivers(sample @ turn, model, together, SLIVER)
     model = flush(sample @ turn, model, together)
-    return thicker(model, len(points) / len(sample)), points, turn
+    model = thicker(model, len(points) / len(sample))
+    return without_gap(model, least_noise(model, len(points))), points, turn
 
 
 def _candidates(points: Floats, params: ExactParams) -> tuple[Candidate, ...]:

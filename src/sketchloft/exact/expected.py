@@ -11,7 +11,15 @@ from sketchloft.exact.model import ExactModel
 from sketchloft.stack import Run
 from sketchloft.wall.foot import WallBoundary
 
-__all__ = ["WallNodes", "empty_shell", "expected_points", "expected_slope", "mass_nodes", "wall_nodes"]
+__all__ = [
+    "WallNodes",
+    "empty_shell",
+    "expected_points",
+    "expected_slope",
+    "mass_nodes",
+    "section_mass",
+    "wall_nodes",
+]
 
 NODES = 120
 """Points per wall to integrate the density with."""
@@ -88,7 +96,7 @@ def expected_slope(model: ExactModel, nodes: list[WallNodes], *, caps: bool) -> 
     for j, run in enumerate(model.stack.runs):
         for k, sign in ((j, -1), (j + 1, 1)):
             if caps or 0 < k < len(breaks) - 1:
-                slope[walls + k] += sign * _section_mass(model, run, float(breaks[k]))
+                slope[walls + k] += sign * section_mass(model, run, float(breaks[k]))
     return slope
 
 
@@ -112,7 +120,7 @@ def _fan(spread: WallBoundary) -> tuple[Floats, Floats]:
     return points, np.concatenate([2 * r * v * share for r, v in zip(t, weight, strict=True)])
 
 
-def _section_mass(model: ExactModel, run: Run, height: float) -> float:
+def section_mass(model: ExactModel, run: Run, height: float) -> float:
     """Expected points per height of a run's section at a height."""
     if len(model.density.coefficients) == 1:
         return float(run.area(np.array([height]))[0] * model.density.at(np.zeros((1, 3)))[0])

@@ -13,7 +13,7 @@ from sketchloft.exact.fit import climb, fit_density
 from sketchloft.exact.likelihood import beside_walls, value_of
 from sketchloft.exact.model import ExactModel, thicker
 
-__all__ = ["sharpened"]
+__all__ = ["least_noise", "sharpened"]
 
 Bools = NDArray[np.bool_]
 
@@ -32,6 +32,11 @@ MOST_POINTS = 12_000
 """Points that the density is fitted to."""
 
 
+def least_noise(model: ExactModel, count: int) -> float:
+    """Noise that is fitted to so many points at least."""
+    return max(FLOOR, SHELLS * model.size * empty_shell(model, count))
+
+
 def sharpened(points: Floats, model: ExactModel, *, tilt: bool) -> tuple[ExactModel, Floats, Floats]:
     """Lower the noise as long as the likelihood rises, then free it.
 
@@ -43,7 +48,7 @@ def sharpened(points: Floats, model: ExactModel, *, tilt: bool) -> tuple[ExactMo
     (3, 3) float array
         The rotation: new points = old points @ rotation.
     """
-    floor = max(FLOOR, SHELLS * model.size * empty_shell(model, len(points)))
+    floor = least_noise(model, len(points))
     turn, sigma = np.eye(3), model.sigma
     sample, every = _thinned(points, MOST_POINTS)
     band, judged = points, _Judged(points, 1, points[:0], 0.0)

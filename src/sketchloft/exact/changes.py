@@ -11,6 +11,7 @@ import numpy as np
 from sketchloft.cloud import Floats
 from sketchloft.exact.joins import sole_profile
 from sketchloft.exact.model import ExactModel
+from sketchloft.exact.section_radii import SectionRadii, piece_costs, section_radii
 from sketchloft.exact.simpler_walls import profiles_like, walls_like
 from sketchloft.exact.surgery import with_run, with_runs, with_split, without_run
 from sketchloft.exact.trial import Change, free_gain
@@ -21,10 +22,8 @@ from sketchloft.wall.swept import Freedom, Swept
 
 __all__ = ["merges", "splits", "swaps"]
 
-SPLIT_SAMPLES = 25
-"""Heights of a profile at which it may be split."""
 SHORTEST = 4
-"""Samples less one that each part has at least."""
+"""Radii that each part has at least."""
 TINY = 1e-12
 THIN = 1e-6
 """Half the thickness of what stands for a section."""
@@ -75,39 +74,48 @@ def _slanted(model: ExactModel, heir: int, other: int) -> Run | None:
     return Run(tuple(slanted), model.stack.runs[heir].holes)
 
 
-def splits(model: ExactModel) -> Iterator[Change]:
-    """Three runs of lines or arcs, or two, for a free profile, cut where they fit it best."""
+def splits(points: Floats, model: ExactModel, together: float) -> Iterator[Change]:
+    """Three runs of lines or arcs, or two, for a revolved one, cut where they fit the points best.
+
+    Parameters
+    ----------
+    points : (n, 3) float array
+    model : ExactModel
+    together : float
+        How many of the points go together.
+    """
     for j, (run, low, high) in enumerate(model.stack.slabs()):
         wall = sole_profile(run)
-        if wall is None or not isinstance(wall.profile, SplineProfile):
+        found = None if wall is None else section_radii(points, wall, (low, high), together)
+        if wall is None or found is None:
             continue
-        z = np.linspace(low, high, SPLIT_SAMPLES)
-        r = radius_at(wall.profile, z)[0]
-        last = SPLIT_SAMPLES - 1
-        fits = {
-            (a, b): _closest(z[a : b + 1], r[a : b + 1], model.sigma)
-            for a in range(last)
-            for b in range(a + SHORTEST, last + 1)
-        }
+        free = isinstance(wall.profile, SplineProfile)
+        cost = piece_costs(found, SHORTEST)
+        last = len(found.heights)
         inner = range(SHORTEST, last - SHORTEST + 1)
         for cuts in (
             [(0, k, m, last) for k in inner for m in inner if m >= k + SHORTEST],
             [(0, k, last) for k in inner],
         ):
-            best = min(cuts, key=lambda cut: sum(fits[pair][0] for pair in pairwise(cut)))
-            walls = [replace(wall, profile=fits[pair][1]) for pair in pairwise(best)]
-            heights = [float(z[k]) for k in best[1:-1]]
+            if not cuts:
+                continue
+            best = min(cuts, key=lambda cut: sum(cost[pair] for pair in pairwise(cut)))
+            walls = [replace(wall, profile=_closest(found, *pair)) for pair in pairwise(best)]
+            heights = [float(found.heights[k - 1 : k + 1].mean()) for k in best[1:-1]]
             split = with_split(model, j, heights, walls)
-            yield Change(split, range(j, j + len(walls)), -free_gain(len(walls)), free=True)
+            handicap = -free_gain(len(walls)) if free else 0.0
+            yield Change(split, range(j, j + len(walls)), handicap, free=free)
 
 
-def _closest(z: Floats, r: Floats, noise: float) -> tuple[float, Profile]:
-    """What a line or arc costs in the place of a profile (Akaike's criterion), and the best one."""
-    fits = [
-        (float((((radius_at(p, z)[0] - r) / noise) ** 2).sum()) + 2 * sizes(p), p)
-        for p in profiles_like(z, r)
-    ]
-    return min(fits, key=lambda fit: fit[0])
+def _closest(found: SectionRadii, start: int, stop: int) -> Profile:
+    """The line or arc that costs least in the place of some radii (Akaike's criterion)."""
+    part = slice(start, stop)
+    z, r, deviation = found.heights[part], found.radii[part], found.deviations[part]
+
+    def cost(profile: Profile) -> float:
+        return float((((radius_at(profile, z)[0] - r) / deviation) ** 2).sum()) + 2 * sizes(profile)
+
+    return min(profiles_like(z, r), key=cost)
 
 
 def swaps(model: ExactModel) -> Iterator[Change]:

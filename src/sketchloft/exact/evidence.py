@@ -55,7 +55,7 @@ def _changed(points: Floats, model: ExactModel, together: float, *, lofts: bool)
         before = model
         model = _through(points, model, together, merges, failed, again=True)
         model = splined(points, model, together)
-        model = _through(points, model, together, splits, failed)
+        model = _through(points, model, together, lambda m: splits(points, m, together), failed)
         model = _through(points, model, together, swaps, failed)
         if lofts and model is not free:
             model = free = lofted(points, ruled(points, model, together), together)

@@ -15,6 +15,7 @@ from sketchloft.exact.section_radii import SectionRadii, piece_costs, section_ra
 from sketchloft.exact.simpler_walls import profiles_like, walls_like
 from sketchloft.exact.surgery import with_run, with_runs, with_split, without_run
 from sketchloft.exact.trial import Change, free_gain
+from sketchloft.intervals import cheapest_chain
 from sketchloft.stack import Run, Wall
 from sketchloft.wall.profile import Profile, SplineProfile
 from sketchloft.wall.revolved import Revolved, radius_at, sizes
@@ -22,6 +23,9 @@ from sketchloft.wall.swept import Freedom, Swept
 
 __all__ = ["merges", "splits", "swaps"]
 
+PIECE = 8.0
+"""What a piece of a profile must gain for there to be more than three, in squared deviations."""
+MOST_PIECES = 6
 SHORTEST = 4
 """Radii that each part has at least."""
 TINY = 1e-12
@@ -75,7 +79,7 @@ def _slanted(model: ExactModel, heir: int, other: int) -> Run | None:
 
 
 def splits(points: Floats, model: ExactModel, together: float) -> Iterator[Change]:
-    """Three runs of lines or arcs, or two, for a revolved one, cut where they fit the points best.
+    """Runs of lines or arcs, many, three or two, for a revolved one, cut where they fit the points best.
 
     Parameters
     ----------
@@ -93,7 +97,9 @@ def splits(points: Floats, model: ExactModel, together: float) -> Iterator[Chang
         cost = piece_costs(found, SHORTEST)
         last = len(found.heights)
         inner = range(SHORTEST, last - SHORTEST + 1)
+        many = tuple(cheapest_chain(cost + PIECE)[0])
         for cuts in (
+            [many] if 4 <= len(many) - 1 <= MOST_PIECES else [],
             [(0, k, m, last) for k in inner for m in inner if m >= k + SHORTEST],
             [(0, k, last) for k in inner],
         ):

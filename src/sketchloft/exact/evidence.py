@@ -40,6 +40,8 @@ def improved(points: Floats, model: ExactModel, together: float, *, lofts: bool 
     could stand in for. So both ways are gone where there is one, and the better end is taken.
     """
     found = _changed(points, model, together, lofts=lofts)
+    if len(found.stack.runs) == 1:
+        return found
     smooth = splined(points, model, together)
     if smooth is model:
         return found

@@ -24,7 +24,7 @@ GAIN = 20.0
 CHEAP = 2.5
 """What each pole of a loft must gain. Where no line or circle does, poles are there to follow the points, and
 one that tells of more than chance brings the wall nearer to the truth (Akaike's criterion asks for 1)."""
-HOPE = 5.0
+HOPE = 8.0
 """How much more a loft may gain than the misfit shows, which counts points where walls weigh them."""
 LOFTS = (((12, 2), (12, 4), (18, 4), (24, 6)), ((16, 1), (24, 1), (24, 3)))
 """Poles around and spans along of the free lofts that are tried, each list as long as it pays."""

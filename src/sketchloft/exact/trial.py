@@ -135,18 +135,20 @@ def tried_free(
     wide = _with_neighbours(candidate, runs)
     before = range(wide.start, wide.stop + len(model.stack.runs) - len(candidate.stack.runs))
     model = fit_density(points, model, 1)
+    candidate, _, _ = climb(_beside(near, candidate), candidate, STEPS[0], runs=wide)
+    gain = value(candidate) - value(model) - change.handicap
+    if gain < -PATIENCE:
+        return None, gain
     model, _, _ = climb(near, model, SETTLED, runs=before, noise=True, most=MOST_NOISE)
     least = value(fit_density(points, model, 1)) + change.handicap
-    gain = -np.inf
     for steps in (*STEPS, SETTLED):
-        candidate, _, _ = climb(_beside(near, candidate), candidate, steps, runs=wide)
-        gain = value(candidate) - least
-        if gain < -PATIENCE:
-            return None, gain
         candidate = fit_density(points, candidate, 1)
         candidate, _, _ = climb(
             _beside(near, candidate), candidate, steps, runs=wide, noise=True, most=MOST_NOISE
         )
+        gain = value(candidate) - least
+        if gain < -PATIENCE:
+            return None, gain
     candidate = natural_joins(candidate)
     gain = value(candidate) - least
     return replace(candidate, sigma=sigma) if gain > 0 else None, gain

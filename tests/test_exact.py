@@ -17,11 +17,12 @@ from sketchloft.brep.tessellate import tessellate
 from sketchloft.cloud import Floats
 from sketchloft.direction import Axis, DirectionParams
 from sketchloft.exact.body import ExactBody
-from sketchloft.outline.placed_polygons import RegularPolygon
+from sketchloft.outline.placed_polygons import RegularPolygon, RoundedRectangle
 from sketchloft.outline.polygons import LineArc
 from sketchloft.sample import GOALS, FillParams, sample_goal
 from sketchloft.stack import Run, Stack
 from sketchloft.stack_volume import stack_volume
+from sketchloft.wall.filleted import Filleted
 from sketchloft.wall.ruled import Ruled
 
 N = 5000
@@ -165,6 +166,18 @@ def test_a_square_that_becomes_round_is_one_ruled_wall() -> None:
     assert body.facts.volume == pytest.approx(stack_volume(solid), rel=0.01)
     corners = np.linalg.norm(tessellate(body.solid, 5e-5, 0.1).vertices[:, :2], axis=1)
     assert corners.max() == pytest.approx(4.0, abs=0.02)
+
+
+def test_a_rounded_box_has_its_fillets() -> None:
+    outline = RoundedRectangle(np.zeros(2), 6.0, 4.0, 0.2, 0.8)
+    wall = Filleted(outline, None, "both", 0.0, 5.0)
+    box = np.random.default_rng(8).uniform([-4, -4, 0], [4, 4, 5], (6 * N, 3))
+    body = built(box[wall.foot(box).distance < 0][:N])
+    assert kinds(body) == [["filleted prism"]]
+    assert body.facts.faces == {"CylindricalSurface": 12, "Plane": 6, "SphericalSurface": 8}
+    found = body.model.stack.runs[0].walls[0]
+    assert isinstance(found, Filleted)
+    assert body.scale * found.radius == pytest.approx(0.8, abs=0.05)
 
 
 # Sections with holes, and sections that split

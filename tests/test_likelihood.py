@@ -22,6 +22,7 @@ from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import spline_loop
 from sketchloft.stack import Run, Stack, Wall
 from sketchloft.stack_volume import stack_volume
+from sketchloft.wall.filleted import Filleted
 from sketchloft.wall.lofted import lofted
 from sketchloft.wall.profile import ArcProfile, LineProfile, SplineProfile
 from sketchloft.wall.revolved import Revolved
@@ -74,6 +75,8 @@ WALLS: dict[str, Wall] = {
     "lines and arcs": swept(LineArc(ELL, BULGES, BULGES != 0)),
     "free outline": swept(FLOWER),
     "loft": lofted(RINGS, KNOTS),
+    "filleted": Filleted(RoundedRectangle(CENTRE, 0.6, 0.4, 0.3, 0.08), None, "both", *BREAKS.tolist()),
+    "filleted, sharp": Filleted(Rectangle(CENTRE, 0.6, 0.4, 0.3), 0.1, "top", *BREAKS.tolist()),
     "ruled": Ruled(
         RegularPolygon(CENTRE, 0.4, 0.2, 4),
         LineArc(RegularPolygon(ORIGIN, 0.3, 0.3, 4).chain()[0], ROUND, ROUND != 0),
@@ -136,7 +139,7 @@ def assert_slopes(points: Floats, model: ExactModel, *, rounded: bool = False) -
 def test_scores_are_the_slopes_of_the_value(name: str) -> None:
     points, model = known(one_run(name))
     assert evaluate(points, model).value == pytest.approx(value_of(points, model))
-    assert_slopes(points, model, rounded=name in ("rounded", "all at once"))
+    assert_slopes(points, model, rounded=name in ("rounded", "all at once", "filleted", "filleted, sharp"))
 
 
 def test_scores_of_several_runs_with_pieces_and_a_hole() -> None:

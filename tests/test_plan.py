@@ -37,6 +37,7 @@ from sketchloft.plan.to_model import model_from_plan
 from sketchloft.plan.walls import FORMS, kind_of
 from sketchloft.plan.write import plan_text, write_plan
 from sketchloft.stack import Run, Stack, Wall
+from sketchloft.wall.filleted import Filleted
 from sketchloft.wall.lofted import lofted
 from sketchloft.wall.profile import ArcProfile, LineProfile, SplineProfile
 from sketchloft.wall.revolved import Revolved
@@ -76,6 +77,8 @@ WALLS: list[Wall] = [
     Revolved(CENTRE, ArcProfile(-0.05, 0.1, 0.45, 1)),
     Revolved(CENTRE, SplineProfile(KNOTS, np.array([0.2, 0.3, 0.35, 0.3, 0.25]))),
     lofted(RINGS, KNOTS),
+    Filleted(RoundedRectangle(CENTRE, 0.4, 0.3, 0.4, 0.05), None, "bottom", -0.3, 0.3),
+    Filleted(Rectangle(CENTRE, 0.4, 0.3, 0.4), 0.05, "both", -0.3, 0.3),
     Ruled(Polygon(ELL), LineArc(0.8 * ELL, BULGES, BULGES != 0), -0.3, 0.3),
     *(Swept(outline, 0.1, np.zeros(2), np.zeros(2)) for outline in OUTLINES),
     *(

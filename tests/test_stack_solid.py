@@ -33,6 +33,7 @@ from sketchloft.outline.spline_loop import spline_loop
 from sketchloft.stack import Run, Stack, Wall
 from sketchloft.stack_distance import distance_from_stack
 from sketchloft.stack_volume import stack_volume
+from sketchloft.wall.filleted import Filleted
 from sketchloft.wall.lofted import lofted
 from sketchloft.wall.profile import ArcProfile, LineProfile, SplineProfile
 from sketchloft.wall.revolved import Revolved
@@ -212,6 +213,19 @@ CASES: dict[str, tuple[Stack, dict[str, int]]] = {
     "dome on a prism": (
         stack([0, 0.3, 0.8], swept(ELLIPSE), swept(ELLIPSE, 0.3, bow=2.0)),
         {"BSplineSurface": 1, "Plane": 1, "SurfaceOfLinearExtrusion": 1},
+    ),
+    "rounded box": (
+        stack([0, 0.6], Filleted(RoundedRectangle(AXIS, 0.8, 0.5, 0.3, 0.1), None, "both", 0.0, 0.6)),
+        {"CylindricalSurface": 12, "Plane": 6, "SphericalSurface": 8},
+    ),
+    "rounded lid on a box": (
+        stack([0, 0.5, 0.7], swept(rectangle(0.6, 0.4)),
+              Filleted(RoundedRectangle(AXIS, 0.8, 0.5, 0.3, 0.05), None, "top", 0.5, 0.7)),
+        {"CylindricalSurface": 8, "Plane": 11, "SphericalSurface": 4},
+    ),
+    "sharp, its ends rounded": (
+        stack([0, 0.6], Filleted(BOX, 0.1, "both", 0.0, 0.6)),
+        {"CylindricalSurface": 8, "Plane": 6},
     ),
     "square to round": (stack([0, 0.8], Ruled(SQUARE, ROUND, 0.0, 0.8)), {"BSplineSurface": 4, "Plane": 2}),
     "between two rectangles": (

@@ -9,6 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from sketchloft.cloud import Floats
+from sketchloft.wall.filleted import Filleted
 from sketchloft.wall.lofted import Lofted
 from sketchloft.wall.revolved import Revolved
 from sketchloft.wall.ruled import Ruled
@@ -16,7 +17,9 @@ from sketchloft.wall.swept import Swept
 
 __all__ = ["Run", "Stack", "Wall", "spanned"]
 
-Wall = Revolved | Swept | Ruled | Lofted
+Wall = Revolved | Swept | Ruled | Filleted | Lofted
+SPANNING = (Ruled, Filleted, Lofted)
+"""Walls that begin and end at the breaks of their run."""
 
 
 @dataclass(frozen=True)
@@ -65,13 +68,11 @@ class Stack:
 
 
 def spanned(stack: Stack) -> Stack:
-    """Let ruled and lofted walls begin and end at the breaks of their runs."""
-    if not any(isinstance(wall, (Ruled, Lofted)) for run in stack.runs for wall in run.walls):
+    """Let those walls that do begin and end at the breaks of their runs."""
+    if not any(isinstance(wall, SPANNING) for run in stack.runs for wall in run.walls):
         return stack
     runs = tuple(
-        replace(
-            run, walls=tuple(w.between(low, high) if isinstance(w, (Ruled, Lofted)) else w for w in run.walls)
-        )
+        replace(run, walls=tuple(w.between(low, high) if isinstance(w, SPANNING) else w for w in run.walls))
         for run, low, high in stack.slabs()
     )
     return replace(stack, runs=runs)

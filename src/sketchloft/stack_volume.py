@@ -6,8 +6,10 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.stack import Stack, Wall
+from sketchloft.wall.filleted import Filleted
 from sketchloft.wall.lofted import Lofted
 from sketchloft.wall.profile import ArcProfile, LineProfile, SplineProfile
+from sketchloft.wall.revolved import Revolved
 from sketchloft.wall.ruled import Ruled
 from sketchloft.wall.swept import Swept
 
@@ -36,10 +38,8 @@ def stack_volume(stack: Stack) -> float:
 
 def _quadrature(wall: Wall, low: float, high: float) -> tuple[Floats, Floats]:
     """Heights and weights between two heights."""
-    if isinstance(wall, Lofted):
-        return _gauss(_ends(wall.knots, low, high))
-    if isinstance(wall, (Ruled, Swept)):
-        return _gauss(np.clip(wall.tips(), low, high))
+    if not isinstance(wall, Revolved):
+        return _swept_quadrature(wall, low, high)
     match wall.profile:
         case SplineProfile(knots):
             return _gauss(_ends(knots, low, high))
@@ -56,6 +56,18 @@ def _quadrature(wall: Wall, low: float, high: float) -> tuple[Floats, Floats]:
             angle, weights = _gauss(angles, ARC_POINTS)
             return height + radius * np.sin(angle), weights * radius * np.cos(angle)
     return _gauss(np.array([low, high]))
+
+
+def _swept_quadrature(
+    wall: Swept | Ruled | Filleted | Lofted, low: float, high: float
+) -> tuple[Floats, Floats]:
+    """The same of a wall that is not revolved."""
+    if isinstance(wall, Lofted):
+        return _gauss(_ends(wall.knots, low, high))
+    if isinstance(wall, Filleted):
+        heights, weights = zip(*wall.spans(low, high), strict=True)
+        return np.concatenate(heights), np.concatenate(weights)
+    return _gauss(np.clip(wall.tips(), low, high))
 
 
 def _ends(inner: Floats, low: float, high: float) -> Floats:

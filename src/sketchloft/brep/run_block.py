@@ -10,6 +10,7 @@ from OCP.gp import gp_Ax3, gp_Dir
 from OCP.TopoDS import TopoDS, TopoDS_Edge, TopoDS_Face
 
 from sketchloft.brep.block import Block
+from sketchloft.brep.filleted_block import filleted_block, plain
 from sketchloft.brep.kernel import point
 from sketchloft.brep.lofted_tube import lofted_tube
 from sketchloft.brep.revolved_tube import revolved_tube
@@ -17,7 +18,10 @@ from sketchloft.brep.ruled_tube import ruled_tube
 from sketchloft.brep.shell_parts import planar_face, turned_around
 from sketchloft.brep.swept_tube import swept_tube
 from sketchloft.brep.tube import Tube
+from sketchloft.errors import ModelError
 from sketchloft.stack import Run, Wall
+from sketchloft.wall.filleted import Filleted
+from sketchloft.wall.lofted import Lofted
 from sketchloft.wall.revolved import Revolved
 from sketchloft.wall.ruled import Ruled
 from sketchloft.wall.swept import Swept
@@ -35,6 +39,10 @@ def run_block(run: Run, low: float, high: float, size: float) -> Block:
     size : float
         Of the whole stack.
     """
+    first = run.walls[0]
+    if isinstance(first, Filleted) and len(run.walls) == 1:
+        here = first.between(low, high)
+        return filleted_block(here, run_block(Run((plain(here),)), low, high, size))
     outer = len(run.walls) - run.holes
     holes: list[list[Wall]] = [[] for _ in range(outer)]
     for hole in run.walls[outer:]:
@@ -60,7 +68,9 @@ def _tube(wall: Wall, low: float, high: float, size: float) -> Tube:
         return swept_tube(wall, low, high)
     if isinstance(wall, Ruled):
         return ruled_tube(wall, low, high)
-    return lofted_tube(wall, low, high)
+    if isinstance(wall, Lofted):
+        return lofted_tube(wall, low, high)
+    raise ModelError("found a filleted prism beside other walls in a run, expected it alone; use a prism")
 
 
 def _add(block: Block, wall: Tube, holes: Sequence[Tube], heights: tuple[float, float]) -> None:

@@ -204,9 +204,11 @@ def _fitted(
     turn = turn @ rotation
     model = thicker(model, len(sample) / len(points))
     model = without_slivers(sample @ turn, model, together, SLIVER)
+    every = len(points) / len(sample)
+    model = thicker(model, every)
+    model = thicker(without_gap(model, least_noise(model, len(points))), 1 / every)
     model = flush(sample @ turn, model, together)
-    model = thicker(model, len(points) / len(sample))
-    return without_gap(model, least_noise(model, len(points))), points, turn
+    return thicker(model, every), points, turn
 
 
 def _candidates(points: Floats, params: ExactParams) -> tuple[Candidate, ...]:

@@ -8,6 +8,7 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.exact.changes import merges, splits, swaps
+from sketchloft.exact.filleted_walls import filleted
 from sketchloft.exact.free_profiles import splined
 from sketchloft.exact.free_walls import lofted, ruled
 from sketchloft.exact.model import ExactModel
@@ -60,6 +61,7 @@ def _changed(points: Floats, model: ExactModel, together: float, *, lofts: bool)
         model = _through(points, model, together, lambda m: splits(points, m, together), failed)
         model = _through(points, model, together, swaps, failed)
         if lofts and model is not free:
+            model = filleted(points, model, together)
             model = free = lofted(points, ruled(points, model, together), together)
         if model is before:
             break

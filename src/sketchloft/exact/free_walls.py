@@ -13,11 +13,12 @@ from sketchloft.exact.schwarz import price
 from sketchloft.exact.surgery import with_runs
 from sketchloft.exact.trial import Change, tried_free
 from sketchloft.stack import Run
+from sketchloft.wall.filleted import Filleted
 from sketchloft.wall.lofted import Lofted
 from sketchloft.wall.revolved import Revolved
 from sketchloft.wall.ruled import Ruled
 
-__all__ = ["lofted", "ruled"]
+__all__ = ["lofted", "ruled", "smooth_chains"]
 
 GAIN = 20.0
 """What a free wall must gain."""
@@ -30,43 +31,43 @@ LOFTS = (((12, 2), (12, 4), (18, 4), (24, 6)), ((16, 1), (24, 1), (24, 3)))
 """Poles around and spans along of the free lofts that are tried, each list as long as it pays."""
 
 
+def smooth_chains(model: ExactModel) -> list[range]:
+    """Runs of one wall each that meet where they touch, in chains as long as they can be."""
+    chains: list[range] = []
+    for j, run in enumerate(model.stack.runs):
+        if chains and chains[-1].stop == j and _smooth(model, j):
+            chains[-1] = range(chains[-1].start, j + 1)
+        elif len(run.walls) == 1:
+            chains.append(range(j, j + 1))
+    return chains
+
+
 def lofted(points: Floats, model: ExactModel, together: float) -> ExactModel:
     """One free wall for a chain of runs, or for a run that is not revolved, where it pays."""
-    start = 0
-    while start < len(model.stack.runs):
-        stop = start + 1
-        while stop < len(model.stack.runs) and _smooth(model, stop):
-            stop += 1
-        runs = model.stack.runs[start:stop]
-        single = all(len(run.walls) == 1 for run in runs)
-        revolved = all(isinstance(run.walls[0], Revolved) for run in runs)
-        free = len(runs) == 1 and isinstance(runs[0].walls[0], Lofted)
-        if single and not revolved and not free and _promising(points, model, range(start, stop), together):
-            best = _best_loft(points, model, range(start, stop), together)
-            model = best or model
-            stop = start + 1 if best is not None else stop
-        start = stop
+    for chain in reversed(smooth_chains(model)):
+        walls = [model.stack.runs[j].walls[0] for j in chain]
+        revolved = all(isinstance(wall, Revolved) for wall in walls)
+        free = len(walls) == 1 and isinstance(walls[0], (Filleted, Lofted))
+        if not revolved and not free and _promising(points, model, chain, together):
+            model = _best_loft(points, model, chain, together) or model
     return model
 
 
 def ruled(points: Floats, model: ExactModel, together: float) -> ExactModel:
     """One ruled wall for a chain of runs, or for one run, where it pays."""
-    start = 0
-    while start < len(model.stack.runs):
-        stop = start + 1
-        while stop < len(model.stack.runs) and _smooth(model, stop):
-            stop += 1
-        runs = range(start, stop)
-        walls = [model.stack.runs[j].walls for j in runs]
-        done = any(len(row) > 1 or isinstance(row[0], (Revolved, Ruled, Lofted)) for row in walls)
-        if not done and HOPE * misfit(points, model, runs, together) > GAIN:
-            ends = float(model.stack.breaks[start]), float(model.stack.breaks[stop])
-            wall = ruled_start(points, ends, together)
-            if wall is not None:
-                change = with_runs(model, start, stop - 1, Run((wall,)))
-                better, _ = tried_free(points, model, Change(change, range(start, start + 1)), together)
-                model, stop = (better, start + 1) if better is not None else (model, stop)
-        start = stop
+    for chain in reversed(smooth_chains(model)):
+        walls = [model.stack.runs[j].walls[0] for j in chain]
+        done = any(isinstance(wall, (Revolved, Ruled, Filleted, Lofted)) for wall in walls)
+        if done or HOPE * misfit(points, model, chain, together) <= GAIN:
+            continue
+        ends = float(model.stack.breaks[chain.start]), float(model.stack.breaks[chain.stop])
+        wall = ruled_start(points, ends, together)
+        if wall is not None:
+            change = with_runs(model, chain.start, chain.stop - 1, Run((wall,)))
+            better, _ = tried_free(
+                points, model, Change(change, range(chain.start, chain.start + 1)), together
+            )
+            model = better or model
     return model
 
 

@@ -11,6 +11,7 @@ from sketchloft.outline.polygons import LineArc, Polygon
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import SplineLoop
 from sketchloft.stack import Run, Wall
+from sketchloft.wall.filleted import Filleted
 from sketchloft.wall.lofted import Lofted
 from sketchloft.wall.profile import ArcProfile, SplineProfile
 from sketchloft.wall.revolved import Revolved
@@ -25,6 +26,8 @@ FARTHEST = 1e4
 """Parameters are below this, as the cloud is about 1 across."""
 LEFT = 0.02
 """Share of a section that its holes leave at least."""
+ROOM = 0.49
+"""Largest fillet, in shares of a prism's edges."""
 LEVELS = 17
 """Heights of a run at which its sections are looked at."""
 
@@ -98,4 +101,11 @@ def covers(wall: Wall, low: float, high: float) -> bool:
         and wall.profile.offset is not None
     ):
         ends = wall.profile.height - wall.profile.radius, wall.profile.height + wall.profile.radius
+    if isinstance(wall, Filleted):
+        return _fits(wall.between(low, high))
     return bool(ends[0] <= low and high <= ends[1])
+
+
+def _fits(wall: Filleted) -> bool:
+    """Whether the fillets of a prism leave room between them."""
+    return 0 < wall.radius < ROOM * min(wall.outline.width, wall.outline.height, wall.high - wall.low)

@@ -24,9 +24,12 @@ LEGEND = """\
 #     sphere             centre, height of the centre, radius
 #     torus              centre, height, minor_radius, major_radius, side = "outer" or "inner" (a waist)
 #     spline revolve     centre, knots: heights, radii: the poles of the cubic spline r(height)
+#     filleted prism     centre, width, depth, angle, fillet: radius along the edges, corners = "round" (the
+#                        same fillet there) or "sharp", ends = "both", "bottom" or "top"
 #     ruled              bottom_vertices, bottom_bulges, top_vertices, top_bulges: the outlines at both ends
 #                        of the run, as many edges each, as those of a line-arc
-#     loft               knots: heights, poles: a ring of points for each pole along the heights
+#     loft               knots: heights, from break to break of its run, poles: a ring of points for each
+#                        pole along the heights
 #     circle             centre, radius
 #     ellipse            centre, major_radius, minor_radius, angle
 #     rectangle          centre, width, depth, angle of the width from x

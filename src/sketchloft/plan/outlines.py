@@ -12,7 +12,7 @@ from sketchloft.outline.spline_loop import spline_loop
 from sketchloft.plan.field import Number
 from sketchloft.plan.form import Form, form
 
-__all__ = ["CENTRE", "OUTLINES", "RADIUS"]
+__all__ = ["CENTRE", "OUTLINES", "RADIUS", "SIDES"]
 
 CENTRE = Number("centre", "centre", shape=(2,))
 RADIUS = Number("radius", "radius", sign="positive")

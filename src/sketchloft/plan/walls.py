@@ -8,13 +8,15 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.outline.outline import Outline
+from sketchloft.outline.placed_polygons import Rectangle, RoundedRectangle
 from sketchloft.outline.polygons import chain_outline
 from sketchloft.plan.field import Choice, Fitted, Number, Quantity
 from sketchloft.plan.form import Form, form
 from sketchloft.plan.numbers import Shape
-from sketchloft.plan.outlines import CENTRE, OUTLINES, RADIUS
+from sketchloft.plan.outlines import CENTRE, OUTLINES, RADIUS, SIDES
 from sketchloft.ring import ring_area
 from sketchloft.stack import Wall
+from sketchloft.wall.filleted import ENDS, Filleted
 from sketchloft.wall.lofted import Lofted, lofted
 from sketchloft.wall.profile import ArcProfile, LineProfile, Profile, SplineProfile
 from sketchloft.wall.revolved import Revolved
@@ -147,6 +149,34 @@ def _ruled() -> Form:
     return Form(tuple(fields), read, make)
 
 
+def _filleted() -> Form:
+    """A rectangle, its corners sharp or rounded as the edges of the ends are."""
+    fields = (
+        *SIDES,
+        Number("fillet", "fillet", sign="positive"),
+        Choice("corners", "corners", {"round": True, "sharp": False}),
+        Choice("ends", "ends", {end: end for end in ENDS}),
+    )
+
+    def make(values: dict[str, Any]) -> Filleted:
+        sides = (values["centre"], values["width"], values["depth"], values["angle"])
+        fillet, ends = values["fillet"], values.get("ends", ENDS[0])
+        if values.get("corners", True):
+            return Filleted(RoundedRectangle(*sides, fillet), None, ends)
+        return Filleted(Rectangle(*sides), fillet, ends)
+
+    def read(wall: Filleted) -> dict[str, Any]:
+        sides = {name: getattr(wall.outline, name) for name in ("centre", "width", "height", "angle")}
+        return {
+            **{field.name: sides[field.attribute] for field in SIDES},
+            "fillet": wall.radius,
+            "corners": wall.fillet is None,
+            "ends": wall.ends,
+        }
+
+    return Form(fields, read, make)
+
+
 FORMS: dict[str, Form] = {
     "cylinder": _revolved(form(_cylinder, RADIUS)),
     "cone": _revolved(form(_cone, RADIUS, Number("slope", "slope", "ratio", required=False), AT)),
@@ -161,6 +191,7 @@ FORMS: dict[str, Form] = {
         )
     ),
     "spline revolve": _revolved(form(_spline, KNOTS, Number("radii", "radii", shape=(None,), least=4))),
+    "filleted prism": _filleted(),
     "ruled": _ruled(),
     "loft": form(_loft, KNOTS, Number("poles", "poles", shape=(None, None, 2), fitted="across", least=4)),
     **{kind: _swept(outline) for kind, outline in OUTLINES.items()},

@@ -14,6 +14,7 @@ from sketchloft.outline.placed_polygons import Rectangle, RegularPolygon, Rounde
 from sketchloft.outline.polygons import LineArc, Polygon
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.stack import Wall
+from sketchloft.wall.filleted import Filleted
 from sketchloft.wall.lofted import Lofted
 from sketchloft.wall.profile import ArcProfile, LineProfile
 from sketchloft.wall.revolved import Revolved, radius_at
@@ -64,6 +65,9 @@ def dimensions(wall: Wall, low: float, high: float) -> tuple[Dimension, ...]:
                 Dimension("area below", below, "area"),
                 Dimension("area above", above, "area"),
             )
+        case Filleted():
+            fillet = () if wall.fillet is None else (Dimension("fillets at the ends", wall.fillet),)
+            return (*_outline(wall.outline, 1.0, 0.0), *fillet)
         case Lofted():
             ends = wall.area(np.array([low, high])).tolist()
             along, around = (

@@ -8,6 +8,7 @@ from sketchloft.cloud import Floats
 from sketchloft.outline.outline import Arc, Closed, Edge, Segment
 from sketchloft.shapes.spline import ClosedSpline
 from sketchloft.stack import Wall
+from sketchloft.wall.filleted import Filleted
 from sketchloft.wall.lofted import Lofted
 from sketchloft.wall.revolved import Revolved, radius_at
 from sketchloft.wall.ruled import Ruled
@@ -33,6 +34,8 @@ def section_path(wall: Wall, height: float) -> Floats:
             tau = np.linspace(-1, 1, ARC_STEPS + 1)
             path = wall.ring(np.array([height]), tau)[0].reshape(-1, 2)
             return np.concatenate([path, path[:1]])
+        case Filleted():
+            return np.concatenate([_along(edge) for edge in wall.section(height).edges()])
         case Lofted():
             return wall.ring(np.array([height]), np.arange(STEPS + 1) / STEPS)[0]
 

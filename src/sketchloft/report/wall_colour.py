@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from sketchloft.report.palette import FACES
 from sketchloft.stack import Wall
+from sketchloft.wall.filleted import Filleted
 from sketchloft.wall.revolved import Revolved
 from sketchloft.wall.swept import Swept
 
@@ -23,6 +24,8 @@ def wall_colour(wall: Wall) -> str:
     """Colour of the faces that make up most of a wall."""
     if isinstance(wall, Revolved):
         return FACES[REVOLVED[wall.kind]]
+    if isinstance(wall, Filleted):
+        return FACES["Plane"]
     if not isinstance(wall, Swept) or wall.twist or wall.bows:
         return FACES["BSplineSurface"]
     if wall.outline.kind == "circle":

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,8 +20,12 @@ REACH = 2.0
 APART = 5.0
 """Parts closer than this many times the smaller reach are one, with a thin place in the drawing; farther
 by the third root of how many points go together, as those of a stroke do: strokes leave wider gaps."""
+CHANCE = 7.0
+"""Points, of those that do not go together, that are missing by chance once in exp(7) times."""
 STRAY = 3.0
 """Points that reach more than this many times as far as the median point are strays and join nothing."""
+PIECE = 0.002
+"""Share of the points that a piece has at least that may bridge a gap."""
 MIN_SHARE = 0.02
 """A part with fewer than this share of the points is taken for stray points."""
 
@@ -36,14 +41,14 @@ class NeighbourGraph:
         Median distance of each point's eight nearest neighbours.
     links : (m, 2) int array
         Pairs of points.
-    apart : float
-        Parts closer than this many times the smaller reach are one.
+    together : float
+        How many of the points go together, as those of a stroke do.
     """
 
     points: Floats
     reach: Floats
     links: Ints
-    apart: float
+    together: float
 
     def joined(self, label: Ints) -> Ints:
         """Join the labels that hang together.
@@ -72,18 +77,54 @@ class NeighbourGraph:
         return part[group]
 
     def _without_thin_places(self, group: Ints, large: Ints) -> Ints:
-        """Part of each large group, where groups with hardly a gap between them are one."""
+        """Part of each large group, where groups with hardly a gap between them are one.
+
+        Small ones may bridge the gap: of a thin place in a drawing only pieces may be left.
+        """
+        core = self.reach <= STRAY * np.median(self.reach)
+        size = np.bincount(group[core], minlength=int(group.max()) + 1)
+        small = np.setdiff1d(np.flatnonzero(size >= PIECE * len(group)), large)
+        members = [np.flatnonzero(core & (group == one)) for one in (*large, *small)]
+        close = [
+            pair for pair in itertools.combinations(range(len(members)), 2) if self._touch(members, pair)
+        ]
+        part = _connected(np.array(close, dtype=np.intp).reshape(-1, 2), np.arange(len(members)))
+        joined = [
+            np.concatenate([m for m, p in zip(members, part, strict=True) if p == one])
+            for one in range(int(part.max()) + 1)
+        ]
+        pairs = itertools.combinations(np.unique(part[: len(large)]).tolist(), 2)
+        near = [pair for pair in pairs if self._by_chance(joined, pair)]
+        return _connected(np.array(near, dtype=np.intp).reshape(-1, 2), np.arange(len(joined)))[
+            part[: len(large)]
+        ]
+
+    def _gap(self, members: Sequence[Ints], pair: tuple[int, int]) -> tuple[Floats, Ints]:
+        """Distance of each point of the second of two groups from the first, and the point there."""
         from scipy.spatial import cKDTree  # noqa: PLC0415  only where there is a gap to measure
 
-        core = self.reach <= STRAY * np.median(self.reach)
-        members = [np.flatnonzero(core & (group == one)) for one in large]
-        close = []
-        for i, j in itertools.combinations(range(len(large)), 2):
-            a, b = members[i], members[j]
-            distance, nearest = map(np.asarray, cKDTree(self.points[a]).query(self.points[b]))
-            if (distance <= self.apart * np.minimum(self.reach[a][nearest], self.reach[b])).any():
-                close.append((i, j))
-        return _connected(np.array(close, dtype=np.intp).reshape(-1, 2), np.arange(len(large)))
+        first, second = (members[i] for i in pair)
+        distance, nearest = cKDTree(self.points[first]).query(self.points[second])
+        return np.asarray(distance), first[nearest]
+
+    def _touch(self, members: Sequence[Ints], pair: tuple[int, int]) -> bool:
+        distance, nearest = self._gap(members, pair)
+        reach = np.minimum(self.reach[nearest], self.reach[members[pair[1]]])
+        return bool((distance <= APART * np.cbrt(self.together) * reach).any())
+
+    def _by_chance(self, members: Sequence[Ints], pair: tuple[int, int]) -> bool:
+        """Whether a part that went on from one to the other could have no points there but by chance.
+
+        As many are to be expected in the gap as lie in a slab of its width behind either of its ends.
+        """
+        distance, nearest = self._gap(members, pair)
+        k = int(np.argmin(distance))
+        first, second = (self.points[members[i]] for i in pair)
+        start, end = self.points[nearest[k]], self.points[members[pair[1]][k]]
+        square = float((end - start) @ (end - start))
+        behind, beyond = (first - start) @ (start - end), (second - end) @ (end - start)
+        fewest = min(((away >= 0) & (away < square)).sum() for away in (behind, beyond))
+        return bool(fewest < CHANCE * self.together)
 
 
 def neighbour_graph(points: Floats) -> NeighbourGraph:
@@ -107,7 +148,7 @@ def neighbour_graph(points: Floats) -> NeighbourGraph:
     near = length <= REACH * np.minimum(reach[first], reach[second])
     links = np.stack([first[near], second[near]], axis=1).astype(np.intp)
     together = dispersion(points / middle_and_size(points)[1])
-    return NeighbourGraph(points, reach, links, APART * float(np.cbrt(together)))
+    return NeighbourGraph(points, reach, links, together)
 
 
 def _connected(links: Ints, label: Ints) -> Ints:

@@ -7,12 +7,10 @@ from collections.abc import Iterator
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.exact.free_walls import smooth_chains
 from sketchloft.exact.likelihood import value_of
 from sketchloft.exact.model import ExactModel
 from sketchloft.exact.surgery import with_runs
 from sketchloft.exact.trial import Change, tried_free
-from sketchloft.outline.outline import Outline
 from sketchloft.outline.placed_polygons import Rectangle, RoundedRectangle
 from sketchloft.stack import Run
 from sketchloft.wall.filleted import ENDS, Filleted
@@ -24,6 +22,8 @@ START = 0.12
 """Fillet that is tried first, in shares of the short side."""
 SLIGHT = 0.04
 """Fillet that a run must be better with as it is, for more to be tried, in shares of the short side."""
+NARROWEST, WIDEST = 0.6, 1.05
+"""Sizes of a section beyond a break that may belong to a fillet, in that of the section before it."""
 GAIN = 15.0
 """What fillets must gain beside their price: a small one takes away next to nothing."""
 
@@ -39,10 +39,7 @@ def filleted(points: Floats, model: ExactModel, together: float) -> ExactModel:
     together : float
         How many of the points go together.
     """
-    for chain in smooth_chains(model):
-        outline = _outline(model, chain)
-        if outline is None:
-            continue
+    for chain, outline in _chains(model):
         before = value_of(points, model)
         best: tuple[float, ExactModel] | None = None
         for slight, wall in zip(_starts(outline, SLIGHT), _starts(outline, START), strict=True):
@@ -71,15 +68,29 @@ def _starts(outline: Rectangle | RoundedRectangle, share: float) -> Iterator[Fil
         yield Filleted(Rectangle(*sides), share * short, ends)
 
 
-def _outline(model: ExactModel, chain: range) -> Rectangle | RoundedRectangle | None:
-    """The largest rectangle that goes straight up in a chain of runs, if that has a rounded one or none."""
-    found: tuple[float, Rectangle | RoundedRectangle] | None = None
-    for j in chain:
-        (wall,) = model.stack.runs[j].walls
-        if isinstance(wall, Filleted):
-            return None
-        length = float(np.diff(model.stack.breaks)[j])
-        outline: Outline | None = wall.outline if isinstance(wall, Swept) else None
-        if isinstance(outline, (Rectangle, RoundedRectangle)) and (found is None or length > found[0]):
-            found = length, outline
-    return None if found is None else found[1]
+def _chains(model: ExactModel) -> Iterator[tuple[range, Rectangle | RoundedRectangle]]:
+    """Runs that go straight up over a rectangle, by themselves and with what narrows beyond their ends."""
+    for j, run in enumerate(model.stack.runs):
+        wall = run.walls[0]
+        if len(run.walls) > 1 or not isinstance(wall, Swept):
+            continue
+        if not isinstance(wall.outline, (Rectangle, RoundedRectangle)):
+            continue
+        low, high = j, j + 1
+        while low > 0 and _narrows(model, low, low - 1):
+            low -= 1
+        while high < len(model.stack.runs) and _narrows(model, high, high):
+            high += 1
+        if high - low > 1:
+            yield range(low, high), wall.outline
+        yield range(j, j + 1), wall.outline
+
+
+def _narrows(model: ExactModel, k: int, beyond: int) -> bool:
+    """Whether the section of the run beyond a break is that before it, about, or a little less."""
+    runs, at = model.stack.runs, np.array([model.stack.breaks[k]])
+    before = runs[k - 1] if beyond == k else runs[k]
+    if len(runs[beyond].walls) > 1 or isinstance(runs[beyond].walls[0], Filleted):
+        return False
+    share = float(np.sqrt(runs[beyond].area(at)[0] / before.area(at)[0]))
+    return NARROWEST < share < WIDEST

@@ -22,6 +22,8 @@ START = 0.12
 """Fillet that is tried first, in shares of the short side."""
 SLIGHT = 0.04
 """Fillet that a run must be better with as it is, for more to be tried, in shares of the short side."""
+SURE = 40.0
+"""Gain of fillets on more edges after which those on fewer are not tried."""
 NARROWEST, WIDEST = 0.6, 1.05
 """Sizes of a section beyond a break that may belong to a fillet, in that of the section before it."""
 GAIN = 15.0
@@ -50,6 +52,8 @@ def filleted(points: Floats, model: ExactModel, together: float) -> ExactModel:
             found, gain = tried_free(points, model, change, together)
             if found is not None and (best is None or gain > best[0]):
                 best = gain, found
+            if gain > SURE:
+                break
         if best is not None:
             return filleted(points, best[1], together)
     return model

@@ -15,10 +15,11 @@ from sketchloft.exact.body import ROOM, ExactBody
 from sketchloft.exact.density import Density
 from sketchloft.exact.fit import climb, fit_density
 from sketchloft.exact.inside_density import inside_density
+from sketchloft.exact.inward_gap import without_gap
 from sketchloft.exact.level_set import level_set
 from sketchloft.exact.likelihood import beside_walls
 from sketchloft.exact.model import ExactModel
-from sketchloft.exact.sharpen import sharpened
+from sketchloft.exact.sharpen import least_noise, sharpened
 from sketchloft.plan.from_model import planned_from_model
 from sketchloft.plan.plan import Plan, PlannedBody
 from sketchloft.plan.to_model import model_from_plan
@@ -147,4 +148,4 @@ def _refitted(points: Floats, model: ExactModel) -> ExactModel:
         near = beside_walls(points, model, BESIDE * noise)
         model, _, _ = climb(points[near], model, 10)
     model, _, _ = sharpened(points, fit_density(points, model, 2), tilt=False)
-    return model
+    return without_gap(model, least_noise(model, len(points)))

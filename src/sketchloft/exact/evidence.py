@@ -16,6 +16,8 @@ from sketchloft.exact.trial import Change, tried, worth
 
 __all__ = ["improved", "without_slivers"]
 
+CHAIN = 3
+"""Runs that merging may hide from a free profile in their place."""
 ROUNDS = 2
 """How often all changes are looked through at most."""
 
@@ -43,7 +45,7 @@ def improved(points: Floats, model: ExactModel, together: float, *, lofts: bool 
     found = _changed(points, model, together, lofts=lofts)
     if len(found.stack.runs) == 1:
         return found
-    smooth = splined(points, model, together)
+    smooth = splined(points, model, together, CHAIN)
     if smooth is model:
         return found
     other = _changed(points, smooth, together, lofts=lofts)

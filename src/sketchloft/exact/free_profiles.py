@@ -19,8 +19,8 @@ SPANS = (4, 7, 11)
 """Knot spans that are tried."""
 
 
-def splined(points: Floats, model: ExactModel, together: float) -> ExactModel:
-    """One free profile for a chain of revolved runs, with as many spans as pay."""
+def splined(points: Floats, model: ExactModel, together: float, fewest: int = 1) -> ExactModel:
+    """One free profile for a chain of so many revolved runs or more, with as many spans as pay."""
     start = 0
     while start < len(model.stack.runs):
         stop = start
@@ -29,7 +29,7 @@ def splined(points: Floats, model: ExactModel, together: float) -> ExactModel:
                 break
             stop += 1
         best: ExactModel | None = None
-        for spans in SPANS if stop > start else ():
+        for spans in SPANS if stop - start >= fewest else ():
             source, last = (model, stop) if best is None else (best, start + 1)
             wall = _spline_through(points, source, start, last, spans)
             change = with_runs(source, start, last - 1, Run((wall,)))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -41,14 +42,16 @@ class NeighbourGraph:
         Median distance of each point's eight nearest neighbours.
     links : (m, 2) int array
         Pairs of points.
-    together : float
-        How many of the points go together, as those of a stroke do.
     """
 
     points: Floats
     reach: Floats
     links: Ints
-    together: float
+
+    @cached_property
+    def together(self) -> float:
+        """How many of the points go together, as those of a stroke do."""
+        return dispersion(self.points / middle_and_size(self.points)[1])
 
     def joined(self, label: Ints) -> Ints:
         """Join the labels that hang together.
@@ -147,8 +150,7 @@ def neighbour_graph(points: Floats) -> NeighbourGraph:
     second, length = other[:, 1:].ravel(), distance[:, 1:].ravel()
     near = length <= REACH * np.minimum(reach[first], reach[second])
     links = np.stack([first[near], second[near]], axis=1).astype(np.intp)
-    together = dispersion(points / middle_and_size(points)[1])
-    return NeighbourGraph(points, reach, links, together)
+    return NeighbourGraph(points, reach, links)
 
 
 def _connected(links: Ints, label: Ints) -> Ints:

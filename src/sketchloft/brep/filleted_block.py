@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from OCP.BRep import BRep_Tool
 from OCP.BRepFilletAPI import BRepFilletAPI_MakeFillet
-from OCP.BRepLib import BRepLib
 from OCP.Geom import Geom_Plane
+from OCP.TopAbs import TopAbs_Orientation
 from OCP.TopoDS import TopoDS_Edge, TopoDS_Face
 
 from sketchloft.brep.block import Block
@@ -40,14 +40,9 @@ def filleted_block(wall: Filleted, prism: Block) -> Block:
         If the kernel cannot make the fillets.
     """
     solid = solid_of([*prism.walls, *prism.bottom, *prism.top])
-    BRepLib.EnsureNormalConsistency_s(solid)
     maker = BRepFilletAPI_MakeFillet(solid)
-    seen: list[TopoDS_Edge] = []
-    for edge in edges_of(solid):
-        if any(edge.IsSame(other) for other in seen):
-            continue
-        seen.append(edge)
-        if _is_rounded(edge, wall):
+    for edge in edges_of(solid):  # each is met twice, once in either sense
+        if edge.Orientation() == TopAbs_Orientation.TopAbs_FORWARD and _is_rounded(edge, wall):
             maker.Add(wall.radius, edge)
     maker.Build()
     if not maker.IsDone():

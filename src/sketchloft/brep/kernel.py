@@ -18,8 +18,9 @@ from OCP.Message import Message, Message_Gravity
 from sketchloft.cloud import Floats
 from sketchloft.surface import SkinSurface
 
-__all__ = ["CONFUSION", "bspline_curve", "bspline_surface", "direction", "point", "skin_of"]
+__all__ = ["CONFUSION", "UP", "bspline_curve", "bspline_surface", "direction", "point", "skin_of"]
 
+UP = gp_Dir(0, 0, 1)
 CONFUSION = 1e-7
 """Absolute distance below which the kernel takes two points for one."""
 

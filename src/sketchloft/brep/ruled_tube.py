@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from OCP.Geom import Geom_Line, Geom_Plane
-from OCP.gp import gp_Ax3
 
-from sketchloft.brep.kernel import bspline_curve, bspline_surface, direction, point
+from sketchloft.brep.kernel import bspline_curve, bspline_surface
+from sketchloft.brep.plane_side import line_part, plane_side
 from sketchloft.brep.shell_parts import CurvePart
 from sketchloft.brep.tube import Side, Tube, tube
 from sketchloft.cloud import Floats
@@ -28,7 +27,7 @@ def ruled_tube(wall: Ruled, low: float, high: float) -> Tube:
     """Make the faces of a ruled wall, whose outlines are at these two heights."""
     wall = wall.between(low, high)
     rims = [_rims(*end.chain(), height) for end, height in ((wall.bottom, low), (wall.top, high))]
-    posts = [_line(foot[0][0], head[0][0]) for foot, head in zip(*rims, strict=True)]
+    posts = [line_part(foot[0][0], head[0][0]) for foot, head in zip(*rims, strict=True)]
     return tube([_side(foot, head, (low, high)) for foot, head in zip(*rims, strict=True)], posts)
 
 
@@ -59,8 +58,7 @@ def _side(
         across = np.cross(d - a, c - b)
         size = float(np.linalg.norm(across))
         if abs(float(across @ (c - a))) <= FLAT * size:
-            plane = Geom_Plane(gp_Ax3(point(a), direction(across), direction(b - a)))
-            return Side(plane, (0, 1), (0, 1), _line(a, b), _line(c, d))
+            return plane_side(foot[0], head[0])
         poles, weights, knots, degree = np.stack([foot[0], head[0]]), None, LINE, 1
     else:
         rows = [_raised(*rim) for rim in (foot, head)]
@@ -80,7 +78,3 @@ def _raised(poles: Floats, weights: Floats | None) -> tuple[Floats, Floats]:
     if weights is not None:
         return poles, weights
     return np.array([poles[0], poles.mean(axis=0), poles[1]]), np.ones(3)
-
-
-def _line(a: Floats, b: Floats) -> CurvePart:
-    return CurvePart(Geom_Line(point(a), direction(b - a)), 0.0, float(np.linalg.norm(b - a)))

@@ -8,16 +8,15 @@ import numpy as np
 from OCP.Geom import (
     Geom_ConicalSurface,
     Geom_CylindricalSurface,
-    Geom_Line,
-    Geom_Plane,
     Geom_SurfaceOfLinearExtrusion,
 )
-from OCP.gp import gp_Ax3, gp_Dir
+from OCP.gp import gp_Ax3
 
 from sketchloft.brep.domed_sides import domed_sides
 from sketchloft.brep.greville import greville
-from sketchloft.brep.kernel import CONFUSION, bspline_curve, bspline_surface, direction, point
+from sketchloft.brep.kernel import UP, bspline_curve, bspline_surface, direction, point
 from sketchloft.brep.outline_curve import Conic, Nurbs, conic_of, nurbs_of
+from sketchloft.brep.plane_side import line_part, plane_side
 from sketchloft.brep.shell_parts import CurvePart
 from sketchloft.brep.tube import Side, Tube, tube
 from sketchloft.cloud import Floats
@@ -33,7 +32,6 @@ EXACT = 1e-9
 """Below this, in a solid about 1 across, a movement is none."""
 TWIST_ERROR = 1e-6
 """Largest distance between a twisted wall and its B-spline."""
-UP = gp_Dir(0, 0, 1)
 
 
 @dataclass(frozen=True)
@@ -69,7 +67,7 @@ def swept_tube(wall: Swept, low: float, high: float) -> Tube:
         return _twisted(wall, edges, (low, high), tips)
     ends = _motion(wall, np.array([low, high]))
     corners = ends.of(np.array([_start(edge) for edge in edges]))
-    posts = [_line(foot, head) for foot, head in zip(*corners, strict=True)]
+    posts = [line_part(foot, head) for foot, head in zip(*corners, strict=True)]
     return tube([_without_tips(_side(edge, ends), tips) for edge in edges], posts)
 
 
@@ -99,19 +97,10 @@ def _start(edge: Edge) -> Floats:
     return nurbs_of(edge).poles[0] if edge.kind == "spline" else conic_of(edge).start
 
 
-def _line(a: Floats, b: Floats) -> CurvePart:
-    """Straight part from a to b; in a tip, where they are one point, its direction does not matter."""
-    length = float(np.linalg.norm(b - a))
-    return CurvePart(Geom_Line(point(a), direction(b - a) if length > CONFUSION else UP), 0.0, length)
-
-
 def _side(edge: Edge, ends: Motion) -> Side:
     """The face of an edge that does not turn."""
     if isinstance(edge, Segment):
-        (a, b), (c, d) = ends.of(np.array([edge.start, edge.end]))
-        long = max(b - a, d - c, key=lambda rim: float(rim @ rim))
-        plane = Geom_Plane(gp_Ax3(point(a), direction(np.cross(long, c - a)), direction(long)))
-        return Side(plane, (0, 1), (0, 1), _line(a, b), _line(c, d))
+        return plane_side(*ends.of(np.array([edge.start, edge.end])))
     if isinstance(edge, Arc) or edge.kind != "spline":
         conics = [
             _carried(conic_of(edge), turn, shift) for turn, shift in zip(ends.turns, ends.shifts, strict=True)

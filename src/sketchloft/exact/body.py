@@ -199,12 +199,11 @@ def _fitted(
     model, _, rotation = coaxial(sample @ turn, model, together, tilt=tilt)
     turn = turn @ rotation
     progress("fit")
-    model = thicker(model, len(points) / len(sample))
+    every = len(points) / len(sample)
+    model = thicker(model, every)
     model, points, rotation = sharpened(points @ turn, model, tilt=tilt)
     turn = turn @ rotation
-    model = thicker(model, len(sample) / len(points))
-    model = without_slivers(sample @ turn, model, together, SLIVER)
-    every = len(points) / len(sample)
+    model = without_slivers(sample @ turn, thicker(model, 1 / every), together, SLIVER)
     model = thicker(model, every)
     model = thicker(without_gap(model, least_noise(model, len(points))), 1 / every)
     model = flush(sample @ turn, model, together)

@@ -93,7 +93,7 @@ def splits(points: Floats, model: ExactModel, together: float) -> Iterator[Chang
         found = None if wall is None else section_radii(points, wall, (low, high), together)
         if wall is None or found is None:
             continue
-        free = isinstance(wall.profile, SplineProfile)
+        free = _is_free(wall)
         cost = piece_costs(found, SHORTEST)
         last = len(found.heights)
         inner = range(SHORTEST, last - SHORTEST + 1)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from sketchloft.cloud import Floats
+from sketchloft.cloud import Floats, Ints
 from sketchloft.exact.expected import WallNodes, section_mass, wall_nodes
 from sketchloft.exact.joins import joined
 from sketchloft.exact.model import ExactModel
@@ -52,8 +52,9 @@ def without_gap(model: ExactModel, least: float) -> ExactModel:
         return model
     nodes = wall_nodes(model)
     rows, targets = [], []
+    users = np.bincount(np.concatenate([s for run in model.slots for s in run]), minlength=model.size)
     for node in nodes:
-        row, gap = _wall_gap(model, node)
+        row, gap = _wall_gap(model, node, users)
         rows.append(row)
         targets.append(gap)
     matrix, target = np.concatenate(rows), np.concatenate(targets)
@@ -64,8 +65,8 @@ def without_gap(model: ExactModel, least: float) -> ExactModel:
     return moved if sound(moved) else model
 
 
-def _wall_gap(model: ExactModel, node: WallNodes) -> tuple[Floats, Floats]:
-    """How each parameter moves a wall's nodes outwards, and how far each should move, by their weights."""
+def _wall_gap(model: ExactModel, node: WallNodes, users: Ints) -> tuple[Floats, Floats]:
+    """How each parameter, with so many walls as users, moves a wall's nodes out, and how far they should."""
     wall = model.stack.runs[node.run].walls[node.wall]
     slots = model.slots[node.run][node.wall]
     at = node.spread.points
@@ -78,7 +79,6 @@ def _wall_gap(model: ExactModel, node: WallNodes) -> tuple[Floats, Floats]:
     )
     if free or points <= 0:
         return row, np.zeros(len(at))
-    users = np.bincount(np.concatenate([s for run in model.slots for s in run]), minlength=model.size)
     between = float((1 / users[slots]).sum()) / points
     return row, node.sign * _gap(model, between) * weight
 

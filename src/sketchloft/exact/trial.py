@@ -94,7 +94,7 @@ def tried(points: Floats, model: ExactModel, change: Change, together: float) ->
     if change.free:
         return tried_free(points, model, change, together)[0]
     candidate, runs = change.model, change.runs
-    near = _around(points, model, candidate, runs)
+    near = _beside_either(points[_at_heights(points, candidate, runs)], model, candidate)
     if not len(near):
         return None
     count = len(points)
@@ -123,7 +123,7 @@ def tried_free(
     sigma, count = model.sigma, len(points)
     here = _at_heights(points, candidate, runs)
     inner, rest = points[here], points[~here]
-    near = inner[beside_walls(inner, model, BESIDE * sigma) | beside_walls(inner, candidate, BESIDE * sigma)]
+    near = _beside_either(inner, model, candidate)
     if not len(near):
         return None, -np.inf
 
@@ -171,11 +171,10 @@ def _beside(points: Floats, model: ExactModel) -> Floats:
     return points[beside_walls(points, model, BESIDE * model.sigma)]
 
 
-def _around(points: Floats, model: ExactModel, candidate: ExactModel, runs: range) -> Floats:
-    """Points beside the walls of either model, at the heights of the new runs and their neighbours."""
-    near = points[_at_heights(points, candidate, runs)]
+def _beside_either(points: Floats, model: ExactModel, candidate: ExactModel) -> Floats:
+    """Points beside the walls of either model, as far as the noise of the first reaches."""
     width = BESIDE * model.sigma
-    return near[beside_walls(near, model, width) | beside_walls(near, candidate, width)]
+    return points[beside_walls(points, model, width) | beside_walls(points, candidate, width)]
 
 
 def _at_heights(points: Floats, model: ExactModel, runs: range) -> NDArray[np.bool_]:

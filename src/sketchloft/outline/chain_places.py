@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from sketchloft.cloud import Floats, Ints
-from sketchloft.outline.chain import chords, outward
+from sketchloft.outline.chain import chords, edge_place, outward
 
 __all__ = ["chain_movement", "chain_place"]
 
@@ -17,7 +17,7 @@ def chain_place(chain: tuple[Floats, Floats], edge: Ints, tau: Floats, order: in
     square = bulge * bulge
     rate = 1 + square * tau * tau
     if order == 0:
-        xi, eta = (1 + square) * tau / (2 * rate), bulge * (1 - tau * tau) / (2 * rate)
+        xi, eta = edge_place(tau, bulge)
     elif order == 1:
         scale = (1 + square) / rate**2
         xi, eta = scale * (1 - square * tau * tau) / 2, -scale * bulge * tau
@@ -36,7 +36,7 @@ def chain_movement(chain: tuple[Floats, Floats], edge: Ints, tau: Floats, normal
     chord, bulge = chords(vertices)[edge], bulges[edge]
     square = bulge * bulge
     rate = 1 + square * tau * tau
-    xi, eta = (1 + square) * tau / (2 * rate), bulge * (1 - tau * tau) / (2 * rate)
+    xi, eta = edge_place(tau, bulge)
     quarter = np.column_stack([-normals[:, 1], normals[:, 0]])
     by_end = (0.5 + xi)[:, None] * normals + eta[:, None] * quarter
     by_start = normals - by_end

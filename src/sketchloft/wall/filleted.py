@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar, Literal, Self, get_args
+from typing import ClassVar, Literal, Self, get_args
 
 import numpy as np
 
@@ -129,7 +129,7 @@ class Filleted:
             for at, weight in zip(((start + end) / 2 + half * x).tolist(), (half * w).tolist(), strict=True):
                 turn, length = (at, weight * self.radius) if way else (0.0, weight)
                 ring = inset(self.outline, self.radius * (1 - np.cos(turn))).boundary(around)
-                z = self._fillet_height(way, turn) if way else at
+                z = float(self._fillet_height(way, np.array(turn))) if way else at
                 level = np.ones(len(ring.points))
                 normals = np.column_stack([np.cos(turn) * ring.normals, way * np.sin(turn) * level])
                 parts.append((np.column_stack([ring.points, z * level]), normals, length * ring.lengths))
@@ -146,7 +146,7 @@ class Filleted:
                 continue
             yield self._fillet_height(way, at), weight * self.radius * np.cos(at)
 
-    def _fillet_height(self, way: int, turn: Any) -> Any:
+    def _fillet_height(self, way: int, turn: Floats) -> Floats:
         """Height at an angle from the prism along the fillet at the bottom or the top."""
         centre = self.high - self.radius if way > 0 else self.low + self.radius
         return centre + way * self.radius * np.sin(turn)

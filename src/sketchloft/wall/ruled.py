@@ -91,13 +91,13 @@ class Ruled:
     def foot(self, points: Floats) -> WallFoot:
         """Signed distance of points (n, 3), and its derivatives."""
         t = self.share(points[:, 2])
-        edge, tau = self._closest(points, *self._nearest(points))
+        edge, tau = self._nearest(points)
+        tau = self._closest(points, edge, tau)
         count = len(self.bottom.chain()[1])
         corner = np.flatnonzero(np.abs(tau) == 1.0)
         step = np.where(tau[corner] > 0, 1, -1)
-        beside, there = self._closest(
-            points[corner], (edge[corner] + step) % count, -tau[corner] * SAMPLES[-1]
-        )
+        beside = (edge[corner] + step) % count
+        there = self._closest(points[corner], beside, -tau[corner] * SAMPLES[-1])
         better = np.abs(there) < 1.0
         edge[corner[better]], tau[corner[better]] = beside[better], there[better]
         at, d1, d2 = (self._place(t, edge, tau, order) for order in range(3))
@@ -139,8 +139,8 @@ class Ruled:
         below, above = (chain_place(end, edge, tau, order) for end in self._ends())
         return (1 - t)[:, None] * below + t[:, None] * above
 
-    def _closest(self, points: Floats, edge: Ints, tau: Floats) -> tuple[Ints, Floats]:
-        """The edges, and the parameters on them of the feet of points, from parameters near by."""
+    def _closest(self, points: Floats, edge: Ints, tau: Floats) -> Floats:
+        """Parameters (n,) of the feet of points on given edges, from parameters near by."""
         t = self.share(points[:, 2])
         for _ in range(NEWTON):
             at, d1, d2 = (self._place(t, edge, tau, order) for order in range(3))
@@ -149,7 +149,7 @@ class Ruled:
             full = second + np.einsum("ij,ij->i", gap, d2)
             step = first / np.maximum(np.where(full > 0.2 * second, full, second), TINY)
             tau = np.clip(tau - np.clip(step, -0.5, 0.5), -1.0, 1.0)
-        return edge, tau
+        return tau
 
     def _nearest(self, points: Floats) -> tuple[Ints, Floats]:
         """Edge (n,) and parameter of the sample nearest to each point in the section at its height."""

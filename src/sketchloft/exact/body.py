@@ -10,25 +10,22 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.direction import Axis
-from sketchloft.dispersion import clump, dispersion
-from sketchloft.errors import ModelError, StageError
+from sketchloft.errors import ModelError
 from sketchloft.exact.coaxial import coaxial
-from sketchloft.exact.direction import Candidate, exact_direction
+from sketchloft.exact.direction import Candidate
 from sketchloft.exact.evidence import improved, without_slivers
-from sketchloft.exact.first_stack import first_stack
-from sketchloft.exact.fit import climb, fit_density
+from sketchloft.exact.fit import climb
 from sketchloft.exact.flush import flush
-from sketchloft.exact.inside_density import inside_density
 from sketchloft.exact.inward_gap import without_gap
 from sketchloft.exact.joins import natural_joins
-from sketchloft.exact.level_set import LevelSet, hollow_share, level_set, on_grid
 from sketchloft.exact.likelihood import beside_walls
 from sketchloft.exact.model import ExactModel, thicker
-from sketchloft.exact.segments import SegmentsParams, segments
+from sketchloft.exact.resection import resectioned
+from sketchloft.exact.segments import SegmentsParams
 from sketchloft.exact.sharpen import least_noise, sharpened
-from sketchloft.exact.trial import MOST_NOISE
+from sketchloft.exact.start import BESIDE, Start, started
 from sketchloft.exact.upright import upright
-from sketchloft.frame import Frame, frame_along, principal_frame
+from sketchloft.frame import Frame
 from sketchloft.robust_size import middle_and_size
 from sketchloft.wall.lofted import Lofted
 
@@ -39,20 +36,10 @@ if TYPE_CHECKING:
 __all__ = ["EXACT_STAGES", "ExactBody", "ExactParams", "exact_body"]
 
 EXACT_STAGES = ("input", "bodies", "direction", "runs", "evidence", "fit", "solid")
-START = 0.006
-"""Noise that the search begins with, as a share of the size."""
 AT_LEAST = 0.004
 """Noise that the evidence is judged with at least: sharper walls would trap the search."""
-ROOM = 1.25
-SEARCH_POINTS = 12_000
-"""The search looks at no more points; the fit looks at all."""
-DIGITS = 6
-"""Of coordinates: what a unit, an origin or a turn leaves in the last digits must not change the model."""
 SLIVER = 0.01
 """Runs shorter than this are looked at again once the noise is known."""
-BESIDE = 8.0
-HOLLOW = 0.4
-"""Share of a closed region that is empty inside from which on it is a skin."""
 
 
 @dataclass(frozen=True)
@@ -144,26 +131,11 @@ def exact_body(
 
     progress("direction")
     middle, scale = middle_and_size(points)
-    unit = (points - middle) / scale
-    if axis == "auto":
-        candidates = _candidates(unit, params)
-        vector = candidates[0].vector
-    else:
-        candidates, vector = (), np.asarray(axis, dtype=float)
-    frame = frame_along(vector, unit)
-    local = np.round(frame.to_local(unit), DIGITS)
-    progress("runs")
-    sample = _sample(local)
-    cuts, first, together = _start(sample, params)
+    start = started((points - middle) / scale, axis, params.segments, progress)
     progress("evidence")
-    tilt = axis == "auto"
-    settled, sample, settling = _settled(sample, first, tilt=tilt)
-    local = local @ settling
     for lofts in (True, False):
-        model, points, turn = _fitted(
-            sample, local, settled, together, tilt=tilt, lofts=lofts, progress=progress
-        )
-        found = Frame((settling @ turn).T @ frame.axes)
+        model, points, turn = _fitted(start, tilt=axis == "auto", lofts=lofts, progress=progress)
+        found = Frame(turn.T @ start.frame.axes)
         progress("solid")
         try:
             solid, facts = built_stack(model.stack, origin + middle, found.axes, scale)
@@ -172,21 +144,26 @@ def exact_body(
             if not any(isinstance(wall, Lofted) for run in model.stack.runs for wall in run.walls):
                 raise
     return ExactBody(
-        name, points, found.direction, candidates, found, middle, scale, cuts, first, model, solid, facts
+        name,
+        points,
+        found.direction,
+        start.candidates,
+        found,
+        middle,
+        scale,
+        start.cuts,
+        start.first,
+        model,
+        solid,
+        facts,
     )
 
 
 def _fitted(
-    sample: Floats,
-    points: Floats,
-    model: ExactModel,
-    together: float,
-    *,
-    tilt: bool,
-    lofts: bool,
-    progress: Callable[[str], None],
+    start: Start, *, tilt: bool, lofts: bool, progress: Callable[[str], None]
 ) -> tuple[ExactModel, Floats, Floats]:
     """Find the runs on a sample and fit them to all points; those turned with the direction; the rotation."""
+    sample, together, model = start.sample, start.together, start.settled
     model = natural_joins(replace(natural_joins(model), sigma=max(model.sigma, AT_LEAST)))
     model, _, _ = climb(sample[beside_walls(sample, model, BESIDE * model.sigma)], model, 8)
     turn = np.eye(3)
@@ -196,66 +173,18 @@ def _fitted(
     if tilt:
         model, rotation = upright(sample @ turn, model, together)
         turn = turn @ rotation
+    again = resectioned(sample @ turn, model, together, start.cuts, (start.settling @ turn)[2, 2])
+    if again is not model:
+        model = improved(sample @ turn, again, together, lofts=lofts)
     model, _, rotation = coaxial(sample @ turn, model, together, tilt=tilt)
     turn = turn @ rotation
     progress("fit")
-    every = len(points) / len(sample)
+    every = len(start.points) / len(sample)
     model = thicker(model, every)
-    model, points, rotation = sharpened(points @ turn, model, tilt=tilt)
+    model, points, rotation = sharpened(start.points @ start.settling @ turn, model, tilt=tilt)
     turn = turn @ rotation
     model = without_slivers(sample @ turn, thicker(model, 1 / every), together, SLIVER)
     model = thicker(model, every)
     model = thicker(without_gap(model, least_noise(model, len(points))), 1 / every)
     model = flush(sample @ turn, model, together)
-    return thicker(model, every), points, turn
-
-
-def _candidates(points: Floats, params: ExactParams) -> tuple[Candidate, ...]:
-    """Directions, found in the frame of the principal axes so that they turn with the cloud."""
-    frame = principal_frame(points)
-    grid, together, kept = _seen(_sample(np.round(frame.to_local(points), DIGITS)))
-    mean = kept.mean(axis=0)
-    grid = replace(grid, origin=grid.origin - mean)
-    found = exact_direction(kept - mean, grid, params.segments, clump(together))
-    return tuple(replace(candidate, vector=frame.to_world(candidate.vector)) for candidate in found)
-
-
-def _start(points: Floats, params: ExactParams) -> tuple[Floats, ExactModel, float]:
-    """Cuts, the first stack, and how many points go together."""
-    grid, together, kept = _seen(points)
-    if hollow_share(grid) > HOLLOW:
-        raise StageError(
-            "the points lie on the skin of the thing only, and this method needs points inside; "
-            "draw the inside too, or use the paper's method",
-            stage="runs",
-        )
-    density = inside_density(points, grid, together)
-    cuts = segments(kept, params.segments, clump(together))
-    space = ROOM * float(np.prod(np.ptp(points, axis=0)))
-    first = first_stack(kept, cuts, grid.blur, sigma=START, together=together, density=density, space=space)
-    if first is None:
-        raise StageError("found no section that the points fill; draw more of the inside", stage="runs")
-    return cuts, first, together
-
-
-def _sample(points: Floats) -> Floats:
-    """Every so many points, as many as the search looks at."""
-    return points[:: len(points) // SEARCH_POINTS + 1]
-
-
-def _seen(points: Floats) -> tuple[LevelSet, float, Floats]:
-    """The level set of points, how many of them go together, and those that are no strays."""
-    together = dispersion(points)
-    grid = level_set(points, clump(together))
-    return grid, together, points[on_grid(grid, points, 2 * grid.blur)]
-
-
-def _settled(points: Floats, model: ExactModel, *, tilt: bool) -> tuple[ExactModel, Floats, Floats]:
-    """The first stack fitted, the points turned with its direction, and the rotation."""
-    turn = np.eye(3)
-    for noise in (False, True):
-        model = fit_density(points, model, 2)
-        near = points[beside_walls(points, model, BESIDE * model.sigma)]
-        model, _, rotation = climb(near, model, 8, tilt=tilt, noise=noise, most=MOST_NOISE)
-        points, turn = points @ rotation, turn @ rotation
-    return model, points, turn
+    return thicker(model, every), points, start.settling @ turn

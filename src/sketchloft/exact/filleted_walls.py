@@ -11,6 +11,7 @@ from sketchloft.exact.likelihood import value_of
 from sketchloft.exact.model import ExactModel
 from sketchloft.exact.surgery import with_runs
 from sketchloft.exact.trial import Change, tried_free
+from sketchloft.outline.candidates import rectangle_of
 from sketchloft.outline.placed_polygons import Rectangle, RoundedRectangle
 from sketchloft.stack import Run
 from sketchloft.wall.filleted import ENDS, Filleted
@@ -26,6 +27,9 @@ SURE = 40.0
 """Gain of fillets on more edges after which those on fewer are not tried."""
 NARROWEST, WIDEST = 0.6, 1.05
 """Sizes of a section beyond a break that may belong to a fillet, in that of the section before it."""
+AROUND = 96
+FILLED = 0.9
+"""Share of the rectangle around an outline that it fills where it could be one with rounded corners."""
 GAIN = 15.0
 """What fillets must gain beside their price: a small one takes away next to nothing."""
 
@@ -73,21 +77,25 @@ def _starts(outline: Rectangle | RoundedRectangle, share: float) -> Iterator[Fil
 
 
 def _chains(model: ExactModel) -> Iterator[tuple[range, Rectangle | RoundedRectangle]]:
-    """Runs that go straight up over a rectangle, by themselves and with what narrows beyond their ends."""
+    """Runs that go straight up over a rectangle, about, by themselves and with what narrows beyond their ends."""
     for j, run in enumerate(model.stack.runs):
         wall = run.walls[0]
         if len(run.walls) > 1 or not isinstance(wall, Swept):
             continue
-        if not isinstance(wall.outline, (Rectangle, RoundedRectangle)):
-            continue
+        outline = wall.outline
+        if not isinstance(outline, (Rectangle, RoundedRectangle)):
+            rectangle = rectangle_of(outline.boundary(AROUND).points)
+            if outline.area < FILLED * rectangle.area:
+                continue
+            outline = rectangle
         low, high = j, j + 1
         while low > 0 and _narrows(model, low, low - 1):
             low -= 1
         while high < len(model.stack.runs) and _narrows(model, high, high):
             high += 1
         if high - low > 1:
-            yield range(low, high), wall.outline
-        yield range(j, j + 1), wall.outline
+            yield range(low, high), outline
+        yield range(j, j + 1), outline
 
 
 def _narrows(model: ExactModel, k: int, beyond: int) -> bool:

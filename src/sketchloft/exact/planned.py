@@ -11,7 +11,7 @@ import numpy as np
 from sketchloft.cloud import Floats, Unit
 from sketchloft.dispersion import clump, dispersion
 from sketchloft.errors import InputError
-from sketchloft.exact.body import ROOM, ExactBody
+from sketchloft.exact.body import ExactBody
 from sketchloft.exact.density import Density
 from sketchloft.exact.fit import climb, fit_density
 from sketchloft.exact.inside_density import inside_density
@@ -20,6 +20,7 @@ from sketchloft.exact.level_set import level_set
 from sketchloft.exact.likelihood import beside_walls
 from sketchloft.exact.model import ExactModel
 from sketchloft.exact.sharpen import least_noise, sharpened
+from sketchloft.exact.start import BESIDE, ROOM
 from sketchloft.plan.from_model import planned_from_model
 from sketchloft.plan.plan import Plan, PlannedBody
 from sketchloft.plan.to_model import model_from_plan
@@ -33,8 +34,6 @@ __all__ = ["check_bodies", "plan_of", "planned_body", "planned_model"]
 
 NOISES = (0.02, 0.006)
 """Noise that the fit begins with, as shares of the size: the first as far as a person's edit may reach."""
-BESIDE = 8.0
-"""Noise deviations from the walls within which points decide."""
 
 
 def plan_of(result: Reconstruction, unit: Unit) -> Plan:

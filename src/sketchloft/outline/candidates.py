@@ -16,7 +16,7 @@ from sketchloft.outline.spline_loop import SplineLoop, spline_loop
 from sketchloft.ring import ring_area, ring_centre
 from sketchloft.shapes.spline import fit_spline, resampled
 
-__all__ = ["chains", "circle_of", "ellipse_of", "polygons", "spline_of"]
+__all__ = ["chains", "circle_of", "ellipse_of", "polygons", "rectangle_of", "spline_of"]
 
 CONTOUR_NOISE = 0.3
 """Standard deviation of the half-density contour in blurs of the density."""
@@ -41,6 +41,21 @@ def ellipse_of(ring: Floats) -> Ellipse:
     ratio = float(np.sqrt(abs(sizes[1]) / max(abs(float(sizes[0])), 1e-12)))
     minor = float(np.sqrt(_area(ring) / np.pi / ratio))
     return Ellipse(centre, ratio * minor, minor, float(np.arctan2(axes[1, 1], axes[0, 1])))
+
+
+def rectangle_of(ring: Floats) -> Rectangle:
+    """Rectangle of least area around the contour (m, 2)."""
+    angles = np.arange(90) * np.pi / 180
+    turn = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    along = ring @ turn.T
+    across = ring @ np.stack([-turn[:, 1], turn[:, 0]], axis=1).T
+    low, high = (np.stack([f(along, axis=0), f(across, axis=0)]) for f in (np.min, np.max))
+    best = int(np.argmin(np.prod(high - low, axis=0)))
+    middle = (low[:, best] + high[:, best]) / 2
+    c, s = turn[best]
+    centre = np.array([c * middle[0] - s * middle[1], s * middle[0] + c * middle[1]])
+    width, height = (high - low)[:, best].tolist()
+    return Rectangle(centre, width, height, float(angles[best]))
 
 
 def spline_of(ring: Floats, poles: int) -> SplineLoop:
@@ -76,7 +91,7 @@ def chains(ring: Floats, blur: float) -> list[Outline]:
 def polygons(ring: Floats, polygon: Polygon | None, blur: float) -> list[Outline]:
     """Rectangles, regular and rounded polygons that a contour, cut into a polygon, could be."""
     found: list[Outline] = []
-    rectangle = _rectangle(ring)
+    rectangle = rectangle_of(ring)
     found.append(rectangle)
     lacking = rectangle.width * rectangle.height - _area(ring)
     radius = float(np.sqrt(max(lacking, 0.0) / (4 - np.pi)))
@@ -120,18 +135,3 @@ def _second_moments(ring: Floats, centre: Floats) -> Floats:
     total = np.einsum("i,ij,ik->jk", cross, p, p) + np.einsum("i,ij,ik->jk", cross, q, q)
     mixed = np.einsum("i,ij,ik->jk", cross, p, q)
     return np.asarray((total + (mixed + mixed.T) / 2) / 12)
-
-
-def _rectangle(ring: Floats) -> Rectangle:
-    """Rectangle of least area around the contour, shrunk to the contour's area where it is larger."""
-    angles = np.arange(90) * np.pi / 180
-    turn = np.stack([np.cos(angles), np.sin(angles)], axis=1)
-    along = ring @ turn.T
-    across = ring @ np.stack([-turn[:, 1], turn[:, 0]], axis=1).T
-    low, high = (np.stack([f(along, axis=0), f(across, axis=0)]) for f in (np.min, np.max))
-    best = int(np.argmin(np.prod(high - low, axis=0)))
-    middle = (low[:, best] + high[:, best]) / 2
-    c, s = turn[best]
-    centre = np.array([c * middle[0] - s * middle[1], s * middle[0] + c * middle[1]])
-    width, height = (high - low)[:, best].tolist()
-    return Rectangle(centre, width, height, float(angles[best]))

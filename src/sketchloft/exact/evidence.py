@@ -14,7 +14,7 @@ from sketchloft.exact.free_walls import lofted, ruled
 from sketchloft.exact.model import ExactModel
 from sketchloft.exact.trial import Change, tried, worth
 
-__all__ = ["improved", "without_slivers"]
+__all__ = ["improved", "merged", "without_slivers"]
 
 CHAIN = 3
 """Runs that merging may hide from a free profile in their place."""
@@ -50,6 +50,20 @@ def improved(points: Floats, model: ExactModel, together: float, *, lofts: bool 
         return found
     other = _changed(points, smooth, together, lofts=lofts)
     return max(found, other, key=lambda end: worth(points, end, together, len(points)))
+
+
+def merged(points: Floats, model: ExactModel, together: float) -> ExactModel:
+    """Leave runs to their neighbours, one at a time, as long as it pays.
+
+    Parameters
+    ----------
+    points : (n, 3) float array
+    model : ExactModel
+        Fitted.
+    together : float
+        How many of the points go together.
+    """
+    return _through(points, model, together, merges, set(), again=True)
 
 
 def _changed(points: Floats, model: ExactModel, together: float, *, lofts: bool) -> ExactModel:

@@ -77,7 +77,7 @@ def _starts(outline: Rectangle | RoundedRectangle, share: float) -> Iterator[Fil
 
 
 def _chains(model: ExactModel) -> Iterator[tuple[range, Rectangle | RoundedRectangle]]:
-    """Runs that go straight up over a rectangle, about, by themselves and with what narrows beyond their ends."""
+    """Runs that go straight up over a rectangle, about, alone and with what narrows beyond their ends."""
     for j, run in enumerate(model.stack.runs):
         wall = run.walls[0]
         if len(run.walls) > 1 or not isinstance(wall, Swept):

@@ -33,8 +33,11 @@ CROWDED = 1.5
 """An outline that leaves the points so many times denser than its contour did has lost them."""
 LOST = 0.01
 """Share of the places whose points are not looked at that an outline may leave on the wrong side."""
-HOPELESS = 150.0
-"""An outline that is so much worse than another before the noise is fitted is given up."""
+HOPELESS = 150.0, 25.0
+"""An outline that is so much worse than another before the noise is fitted, in log likelihood and at least in
+evidence, is given up."""
+ENOUGH = 0.05
+"""Evidence that a step gains for there to be another."""
 COMMON = (Circle, Ellipse, Rectangle)
 RARE = 6.0
 """Log odds against other outlines of up to six edges, of which there are more to be taken for one by chance;
@@ -85,13 +88,14 @@ def _best(points: Floats, ring: Floats, blur: float, together: float, *, hole: b
     near, core, area = _beside(points, ring, BESIDE * blur, hole=hole)
     tried: list[tuple[float, Outline]] = []
     rough = [-np.inf]
+    hopeless = max(HOPELESS[0] / together, HOPELESS[1])
 
     def attempt(outline: Outline) -> float:
         start = _model(near, core, area, outline, 0.5 * blur, hole=hole)
         at = np.column_stack([near, np.zeros(len(near))])
         model, value = _settled(at, start, together)
         rough.append(value)
-        if value > max(rough) - HOPELESS:
+        if value > max(rough) - hopeless:
             model, value = _sharpened(at, model, start, together)
             value -= _rarity(outline)
         wall = model.stack.runs[0].walls[0]
@@ -200,7 +204,7 @@ def _model(
 
 def _settled(points: Floats, model: ExactModel, together: float) -> tuple[ExactModel, float]:
     """Fit at the noise that all outlines begin with, and the evidence."""
-    model, _, _ = climb(points, model, 5, caps=False)
+    model, _, _ = climb(points, model, 5, caps=False, enough=ENOUGH * together)
     model = fit_density(points, model, 1, caps=False)
     return model, evidence(points, model, together)
 
@@ -209,7 +213,8 @@ def _sharpened(
     points: Floats, model: ExactModel, start: ExactModel, together: float
 ) -> tuple[ExactModel, float]:
     """Fit the noise, too, and the evidence; none for an outline that gave up most of the points."""
-    model, _, _ = climb(points, model, 8, noise=True, caps=False, most=model.sigma)
+    enough = ENOUGH * together
+    model, _, _ = climb(points, model, 8, noise=True, caps=False, most=model.sigma, enough=enough)
     model = fit_density(points, model, 1, caps=False)
     crowded = model.density.coefficients[0] - start.density.coefficients[0] > np.log(CROWDED)
     return model, -np.inf if crowded else evidence(points, model, together)

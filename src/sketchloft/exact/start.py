@@ -15,6 +15,7 @@ from sketchloft.direction import Axis
 from sketchloft.dispersion import clump, dispersion
 from sketchloft.errors import StageError
 from sketchloft.exact.direction import Candidate, exact_direction
+from sketchloft.exact.evidence import merged
 from sketchloft.exact.first_stack import first_stack
 from sketchloft.exact.fit import climb, fit_density
 from sketchloft.exact.inside_density import inside_density
@@ -24,6 +25,7 @@ from sketchloft.exact.model import ExactModel
 from sketchloft.exact.segments import SegmentsParams, segments
 from sketchloft.exact.trial import MOST_NOISE, worth
 from sketchloft.frame import Frame, frame_along, principal_frame
+from sketchloft.wall.swept import Swept
 
 __all__ = ["BESIDE", "ROOM", "SEARCH_POINTS", "Start", "started"]
 
@@ -40,7 +42,10 @@ BESIDE = 8.0
 HOLLOW = 0.4
 """Share of a closed region that is empty inside from which on it is a skin."""
 CLOSE = 0.03
-"""Log likelihood per point by which a direction may be behind the best and yet have the better stack."""
+"""Log likelihood per point by which a direction may be behind the best and yet have the better stack, where
+no points go together."""
+TURNED = 0.02
+"""Angle in radians by which the fit of a first stack has turned that is worth another."""
 CONTENDERS = 3
 
 
@@ -94,31 +99,41 @@ def started(points: Floats, axis: Axis, params: SegmentsParams, progress: Callab
     StageError
         If no section is found, or the points are on a skin.
     """
-    if axis != "auto":
-        progress("runs")
-        return _start(points, np.asarray(axis, dtype=float), (), params)
-    candidates = _candidates(points, params)
+    candidates = _candidates(points, params) if axis == "auto" else ()
     progress("runs")
-    best = _start(points, candidates[0].vector, candidates, params)
-    if len(best.first.stack.runs) == 1:
-        return best  # nothing simpler can be found along another direction
+    vector = candidates[0].vector if candidates else np.asarray(axis, dtype=float)
+    best = _start(points, vector, candidates, params, fine=False)
+    close = CLOSE * float(np.sqrt(best.together))
     for k, other in enumerate(candidates[1:CONTENDERS], 1):
-        if other.value < candidates[0].value - CLOSE:
+        if _plain(best.first) or other.value < candidates[0].value - close:
             break
         order = (other, *candidates[:k], *candidates[k + 1 :])
-        start = _start(points, other.vector, order, params)
-        best = max(best, start, key=_worth)
+        best = max(best, _start(points, other.vector, order, params, fine=False), key=_worth)
+    if best.settling[2, 2] < np.cos(TURNED) and not _plain(best.first):
+        turned = best.settling.T @ best.frame.axes
+        best = max(best, _start(points, turned[2], best.candidates, params, fine=False), key=_worth)
+    if best.together > 1 and not _plain(best.first):
+        fine = _start(points, best.frame.axes[2], best.candidates, params, fine=True)
+        best = max(best, fine, key=_worth)
     return best
 
 
+def _plain(model: ExactModel) -> bool:
+    """Whether there is one run, and all its sections are the same: nothing simpler can be found."""
+    walls = [wall for run in model.stack.runs for wall in run.walls]
+    return len(model.stack.runs) == 1 and not any(isinstance(wall, Swept) and wall.free for wall in walls)
+
+
 def _worth(start: Start) -> float:
-    return worth(start.sample, start.settled, start.together, len(start.sample))
+    """How well the first stack explains the points once it has no more runs than it needs."""
+    model = merged(start.sample, start.settled, start.together)
+    return worth(start.sample, model, start.together, len(start.sample))
 
 
 def _start(
-    points: Floats, vector: Floats, candidates: tuple[Candidate, ...], params: SegmentsParams
+    points: Floats, vector: Floats, candidates: tuple[Candidate, ...], params: SegmentsParams, *, fine: bool
 ) -> Start:
-    """First stack along a direction."""
+    """First stack along a direction, with cuts as few as strokes call for, or finer ones."""
     frame = frame_along(vector, points)
     local = np.round(frame.to_local(points), DIGITS)
     sample = _sample(local)
@@ -130,7 +145,7 @@ def _start(
             stage="runs",
         )
     density = inside_density(sample, grid, together)
-    cuts = segments(kept, params, clump(together))
+    cuts = segments(kept, params, clump(together) if fine else together)
     space = ROOM * float(np.prod(np.ptp(sample, axis=0)))
     first = first_stack(kept, cuts, grid.blur, sigma=START, together=together, density=density, space=space)
     if first is None:

@@ -22,6 +22,8 @@ BESIDE = 6.0
 STEPS = (2, 4)
 SETTLED = 12
 """Steps after which the noise of a model is the one that suits it."""
+ENOUGH = 0.05
+"""Log likelihood of independent points that a step gains for there to be another."""
 HOPELESS = 40.0
 """A change that is still so much worse after the first few steps is given up."""
 HOPE = 2.0
@@ -104,7 +106,9 @@ def tried(points: Floats, model: ExactModel, change: Change, together: float) ->
     ):
         return None
     for steps in STEPS:
-        candidate, _, _ = climb(near, candidate, steps, runs=_with_neighbours(candidate, runs))
+        candidate, _, _ = climb(
+            near, candidate, steps, runs=_with_neighbours(candidate, runs), enough=ENOUGH * together
+        )
         if worth(near, candidate, together, count) < least - HOPELESS:
             return None
     candidate = natural_joins(candidate)
@@ -120,7 +124,7 @@ def tried_free(
     density that suit them; and a free wall has farther to go.
     """
     candidate, runs = replace(change.model, sigma=min(change.model.sigma, SHARP)), change.runs
-    sigma, count = model.sigma, len(points)
+    sigma, count, enough = model.sigma, len(points), ENOUGH * together
     here = _at_heights(points, candidate, runs)
     inner, rest = points[here], points[~here]
     near = _beside_either(inner, model, candidate)
@@ -135,16 +139,16 @@ def tried_free(
     wide = _with_neighbours(candidate, runs)
     before = range(wide.start, wide.stop + len(model.stack.runs) - len(candidate.stack.runs))
     model = fit_density(points, model, 1)
-    candidate, _, _ = climb(_beside(near, candidate), candidate, STEPS[0], runs=wide)
+    candidate, _, _ = climb(_beside(near, candidate), candidate, STEPS[0], runs=wide, enough=enough)
     gain = value(candidate) - value(model) - change.handicap
     if gain < -PATIENCE:
         return None, gain
-    model, _, _ = climb(near, model, SETTLED, runs=before, noise=True, most=MOST_NOISE)
+    model, _, _ = climb(near, model, SETTLED, runs=before, noise=True, most=MOST_NOISE, enough=enough)
     least = value(fit_density(points, model, 1)) + change.handicap
     for steps in (*STEPS, SETTLED):
         candidate = fit_density(points, candidate, 1)
         candidate, _, _ = climb(
-            _beside(near, candidate), candidate, steps, runs=wide, noise=True, most=MOST_NOISE
+            _beside(near, candidate), candidate, steps, runs=wide, noise=True, most=MOST_NOISE, enough=enough
         )
         gain = value(candidate) - least
         if gain < -PATIENCE:

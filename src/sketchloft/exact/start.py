@@ -44,7 +44,7 @@ HOLLOW = 0.4
 CLOSE = 0.03
 """Log likelihood per point by which a direction may be behind the best and yet have the better stack, where
 no points go together."""
-TURNED = 0.02
+TURNED = 0.04
 """Angle in radians by which the fit of a first stack has turned that is worth another."""
 CONTENDERS = 3
 
@@ -65,8 +65,8 @@ class Start:
         Where the moments of the points say that the sections change.
     together : float
         How many points go together.
-    first, settled : ExactModel
-        Segment by segment, and fitted.
+    first, settled, merged : ExactModel
+        Segment by segment, fitted, and with no more runs than it needs.
     settling : (3, 3) float array
         The rotation of the points that fitting made: it is in `sample`, not in `points`.
     """
@@ -79,6 +79,7 @@ class Start:
     together: float
     first: ExactModel
     settled: ExactModel
+    merged: ExactModel
     settling: Floats
 
 
@@ -105,14 +106,14 @@ def started(points: Floats, axis: Axis, params: SegmentsParams, progress: Callab
     best = _start(points, vector, candidates, params, fine=False)
     close = CLOSE * float(np.sqrt(best.together))
     for k, other in enumerate(candidates[1:CONTENDERS], 1):
-        if _plain(best.first) or other.value < candidates[0].value - close:
+        if _plain(best.merged) or other.value < candidates[0].value - close:
             break
         order = (other, *candidates[:k], *candidates[k + 1 :])
         best = max(best, _start(points, other.vector, order, params, fine=False), key=_worth)
-    if best.settling[2, 2] < np.cos(TURNED) and not _plain(best.first):
+    if best.settling[2, 2] < np.cos(TURNED) and not _plain(best.merged):
         turned = best.settling.T @ best.frame.axes
         best = max(best, _start(points, turned[2], best.candidates, params, fine=False), key=_worth)
-    if best.together > 1 and not _plain(best.first):
+    if best.together > 1 and not _plain(best.merged):
         fine = _start(points, best.frame.axes[2], best.candidates, params, fine=True)
         best = max(best, fine, key=_worth)
     return best
@@ -125,9 +126,7 @@ def _plain(model: ExactModel) -> bool:
 
 
 def _worth(start: Start) -> float:
-    """How well the first stack explains the points once it has no more runs than it needs."""
-    model = merged(start.sample, start.settled, start.together)
-    return worth(start.sample, model, start.together, len(start.sample))
+    return worth(start.sample, start.merged, start.together, len(start.sample))
 
 
 def _start(
@@ -151,7 +150,8 @@ def _start(
     if first is None:
         raise StageError("found no section that the points fill; draw more of the inside", stage="runs")
     settled, sample, settling = _settled(sample, first, tilt=bool(candidates))
-    return Start(candidates, frame, local, sample, cuts, together, first, settled, settling)
+    lean = merged(sample, settled, together)
+    return Start(candidates, frame, local, sample, cuts, together, first, settled, lean, settling)
 
 
 def _candidates(points: Floats, params: SegmentsParams) -> tuple[Candidate, ...]:

@@ -11,6 +11,7 @@ import numpy as np
 from sketchloft.cloud import Floats
 from sketchloft.exact.joins import sole_profile
 from sketchloft.exact.model import ExactModel
+from sketchloft.exact.recognise_section import rarity
 from sketchloft.exact.section_radii import SectionRadii, piece_costs, section_radii
 from sketchloft.exact.simpler_walls import profiles_like, walls_like
 from sketchloft.exact.surgery import with_run, with_runs, with_split, without_run
@@ -133,7 +134,12 @@ def swaps(model: ExactModel) -> Iterator[Change]:
                 nested = _extends(wall, other)
                 free = _is_free(wall)
                 changed = with_run(model, j, Run(walls, run.holes))
-                yield Change(changed, range(j, j + 1), -free_gain(1) if free else 0.0, nested, free)
+                handicap = -free_gain(1) if free else max(_rarity(other) - _rarity(wall), 0.0)
+                yield Change(changed, range(j, j + 1), handicap, nested, free)
+
+
+def _rarity(wall: Wall) -> float:
+    return rarity(wall.outline) if isinstance(wall, Swept) else 0.0
 
 
 def _is_free(wall: Wall) -> bool:

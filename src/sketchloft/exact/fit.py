@@ -11,7 +11,7 @@ from sketchloft.cloud import Floats
 from sketchloft.exact.density import Density, regressed
 from sketchloft.exact.expected import mass_nodes, wall_nodes
 from sketchloft.exact.joins import joined
-from sketchloft.exact.likelihood import Evaluation, evaluate, share_of
+from sketchloft.exact.likelihood import Evaluation, density_of, evaluate
 from sketchloft.exact.model import ExactModel
 from sketchloft.exact.soundness import sound
 from sketchloft.exact.tilt import tilted
@@ -20,6 +20,8 @@ __all__ = ["climb", "fit_density", "promise"]
 
 Bools = NDArray[np.bool_]
 
+FEWEST = 0.5
+"""Strays at least."""
 STRAY_MOST = 0.06
 """Largest share of strays."""
 MOST_CHANGE = 0.5
@@ -29,6 +31,10 @@ STRIDE = 3.0
 """How far a single parameter may move a wall in one step, in noise deviations."""
 
 
+LAST = (np.inf, np.inf, 0.5, 1.0)
+"""Largest step of the parameters that come last: tilt, log sigma and log stray; the walls bound the first."""
+
+
 def climb(
     points: Floats,
     model: ExactModel,
@@ -36,6 +42,7 @@ def climb(
     *,
     tilt: bool = False,
     noise: bool = False,
+    strays: bool = False,
     caps: bool = True,
     least: float = 1e-5,
     most: float = np.inf,
@@ -50,8 +57,9 @@ def climb(
     model : ExactModel
     steps : int
         At most this many.
-    tilt, noise : bool
-        Whether the direction and sigma move, too.
+    tilt, noise, strays : bool
+        Whether the direction, sigma and the density of strays move, too; the last only where all strays
+        are among the points.
     caps : bool
         Whether the first and last break are walls; without, they are not moved.
     runs : range, optional
@@ -75,11 +83,11 @@ def climb(
     if not np.isfinite(now.value):
         return model, points, turn
     for _ in range(steps):
-        free = _free(model, tilt=tilt, noise=noise)
+        free = _free(model, tilt=tilt, noise=noise, strays=strays)
         if runs is not None:
             free &= _of_runs(model, runs)
         if not caps:
-            free[[model.size, -4]] = False
+            free[[model.size, -len(LAST) - 1]] = False
         moved = None
         for _ in range(6):
             step = _step(now, free, damping, model.sigma)
@@ -111,21 +119,21 @@ def promise(points: Floats, model: ExactModel) -> float:
     now = evaluate(points, model)
     if not np.isfinite(now.value):
         return 0.0
-    index = np.flatnonzero(_free(model, tilt=False, noise=False))
+    index = np.flatnonzero(_free(model, tilt=False, noise=False, strays=False))
     information, score = now.information[np.ix_(index, index)], now.score[index]
     ridge = 1e-9 * max(float(np.diag(information).max(initial=0.0)), 1e-300) * np.eye(len(index))
     return float(score @ np.linalg.solve(information + ridge, score)) / 2
 
 
-def _free(model: ExactModel, *, tilt: bool, noise: bool) -> Bools:
+def _free(model: ExactModel, *, tilt: bool, noise: bool, strays: bool) -> Bools:
     steps = [join == "step" for join in model.joins]
-    return np.array([*[True] * model.size, *steps, tilt, tilt, noise])
+    return np.array([*[True] * model.size, *steps, tilt, tilt, noise, strays])
 
 
 def _of_runs(model: ExactModel, runs: range) -> Bools:
-    """Parameters of some runs' walls that no other run shares, the breaks within, and the last three."""
-    mine = np.zeros(model.size + len(model.stack.breaks) + 3, dtype=bool)
-    mine[-3:] = True
+    """Parameters of some runs' walls that no other run shares, the breaks within, and the last ones."""
+    mine = np.zeros(model.size + len(model.stack.breaks) + len(LAST), dtype=bool)
+    mine[-len(LAST) :] = True
     others = np.zeros(model.size, dtype=bool)
     for j, row in enumerate(model.slots):
         for slot in row:
@@ -147,17 +155,20 @@ def _step(now: Evaluation, free: Bools, damping: float, sigma: float) -> Floats:
     information = information + np.diag(damping * diagonal + floor * max(damping, 1e-3))
     raw = np.linalg.solve(information + 1e-12 * np.eye(len(index)), now.score[index])
     limit = STRIDE * sigma / np.maximum(now.reach[index], TINY)
-    limit[index == len(free) - 1] = 0.5
+    for back, most in enumerate(LAST[::-1], 1):
+        limit[index == len(free) - back] = np.minimum(limit[index == len(free) - back], most)
     step[index] = np.clip(raw, -limit, limit)
     return step
 
 
 def _moved(model: ExactModel, step: Floats, limits: tuple[float, float]) -> tuple[ExactModel, Floats]:
     walls = model.size
-    breaks = np.maximum.accumulate(model.stack.breaks + step[walls:-3])
+    breaks = np.maximum.accumulate(model.stack.breaks + step[walls : -len(LAST)])
     candidate = model.moved(model.vector + step[:walls], breaks)
-    sigma = float(np.clip(model.sigma * np.exp(step[-1]), *limits))
-    return joined(replace(candidate, sigma=sigma)), tilted(step[-3], step[-2])
+    x, y, wider, more = step[-len(LAST) :].tolist()
+    sigma = float(np.clip(model.sigma * np.exp(wider), *limits))
+    stray = max(model.stray * float(np.exp(more)), FEWEST / model.space)
+    return joined(replace(candidate, sigma=sigma, stray=stray)), tilted(x, y)
 
 
 def fit_density(points: Floats, model: ExactModel, rounds: int = 3, *, caps: bool = True) -> ExactModel:
@@ -168,18 +179,33 @@ def fit_density(points: Floats, model: ExactModel, rounds: int = 3, *, caps: boo
     count = len(model.density.coefficients)
     terms, nodes = Density.terms(points, count), Density.terms(at, count)
     for _ in range(rounds):
-        share = share_of(points, model, caps=caps)
+        drawn = density_of(points, model, caps=caps)
+        share = drawn / (drawn + model.stray)
         coefficients = model.density.coefficients.copy()
         mass = max(float(np.exp(np.clip(nodes @ coefficients, -50, 50)) @ volumes), 1e-12)
         change = np.log(max(float(share.sum()), 1.0) / mass)
         coefficients[0] += float(np.clip(change, -MOST_CHANGE, MOST_CHANGE))
         if count > 1:
             coefficients = regressed(coefficients, nodes, volumes, share @ terms, steps=4)
-        stray = float((1 - share).sum())
-        most = STRAY_MOST * len(points)
-        model = replace(
-            model,
-            density=Density(coefficients),
-            stray=float(np.clip(stray, 0.5, most)) / model.space,
-        )
+        stray = _stray(drawn, model.space, STRAY_MOST * len(points))
+        model = replace(model, density=Density(coefficients), stray=stray)
     return model
+
+
+def _stray(drawn: Floats, space: float, most: float) -> float:
+    """Density of strays that makes points likeliest which lie where others have been drawn so densely (n,).
+
+    Notes
+    -----
+    What each point says of it falls with it, so that there is one (EM finds it too, but slowly).
+    """
+    from scipy.optimize import brentq  # noqa: PLC0415
+
+    def slope(count: float) -> float:
+        return float((1 / (drawn + count / space)).sum()) - space
+
+    if slope(FEWEST) <= 0:
+        return FEWEST / space
+    if slope(most) >= 0:
+        return most / space
+    return float(brentq(slope, FEWEST, most, rtol=1e-6)) / space

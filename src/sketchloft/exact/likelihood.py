@@ -16,7 +16,7 @@ from sketchloft.exact.expected import expected_points, expected_slope, wall_node
 from sketchloft.exact.model import ExactModel
 from sketchloft.exact.soundness import sound
 
-__all__ = ["Evaluation", "beside_walls", "evaluate", "share_of", "value_of"]
+__all__ = ["Evaluation", "beside_walls", "density_of", "evaluate", "value_of"]
 
 REACH = 5.0
 """Noise deviations beyond which a wall is taken to be a sharp step."""
@@ -24,12 +24,11 @@ REACH = 5.0
 
 @dataclass(frozen=True)
 class Evaluation:
-    """The log likelihood and its derivatives by walls, breaks, tilt and log sigma, in this order.
+    """The log likelihood and its derivatives by walls, breaks, tilt, log sigma and log stray, in this order.
 
     Parameters
     ----------
     value : float
-        But for terms that no parameter changes.
     score : (p,) float array
     information : (p, p) float array
         Sum of the outer products of the points' scores.
@@ -61,16 +60,18 @@ def evaluate(points: Floats, model: ExactModel, *, caps: bool = True) -> Evaluat
     """
     size = model.size + len(model.stack.breaks)
     if not sound(model):
-        nothing = np.zeros(size + 3)
-        return Evaluation(-np.inf, nothing, np.zeros((size + 3, size + 3)), nothing)
+        nothing = np.zeros(size + 4)
+        return Evaluation(-np.inf, nothing, np.zeros((size + 4, size + 4)), nothing)
     inside, slope, reach = _inside(points, model, model.sigma, gradient=True, caps=caps)
     rho = model.density.at(points)
     total = rho * inside + model.stray
     ratio = (rho / total)[:, None] * slope
+    ratio[:, -1] = model.stray / total
     score = ratio.sum(axis=0)
     nodes = wall_nodes(model)
     score[:size] -= expected_slope(model, nodes, caps=caps)
-    value = float(np.log(total).sum()) - expected_points(model, nodes)
+    score[-1] -= model.stray * model.space
+    value = float(np.log(total).sum()) - expected_points(model, nodes) - model.stray * model.space
     return Evaluation(value, score, ratio.T @ ratio, reach)
 
 
@@ -80,19 +81,20 @@ def value_of(points: Floats, model: ExactModel, *, caps: bool = True) -> float:
         return -np.inf
     inside = _inside(points, model, model.sigma, gradient=False, caps=caps)[0]
     total = model.density.at(points) * inside + model.stray
-    return float(np.log(total).sum()) - expected_points(model, wall_nodes(model))
+    expected = expected_points(model, wall_nodes(model)) + model.stray * model.space
+    return float(np.log(total).sum()) - expected
 
 
-def share_of(points: Floats, model: ExactModel, *, caps: bool = True) -> Floats:
-    """(n,) probability of each point to be none of the strays."""
-    inside = model.density.at(points) * _inside(points, model, model.sigma, gradient=False, caps=caps)[0]
-    return inside / (inside + model.stray)
+def density_of(points: Floats, model: ExactModel, *, caps: bool = True) -> Floats:
+    """(n,) density that the model has at points (n, 3), but for the strays'."""
+    inside = _inside(points, model, model.sigma, gradient=False, caps=caps)[0]
+    return model.density.at(points) * inside
 
 
 def _inside(
     points: Floats, model: ExactModel, sigma: float, *, gradient: bool, caps: bool = True
 ) -> tuple[Floats, Floats, Floats]:
-    """Soft indicator (n,), its derivatives (n, walls + breaks + 2 + 1), and the walls' reach."""
+    """Soft indicator (n,), its derivatives (n, walls + breaks + 2 + 1 + 1), and the walls' reach."""
     from scipy.special import ndtr  # noqa: PLC0415
 
     stack = model.stack
@@ -101,9 +103,9 @@ def _inside(
     heights = stack.breaks if caps else np.r_[-np.inf, stack.breaks[1:-1], np.inf]
     step = ndtr((heights - z[:, None]) / sigma)
     inside = np.zeros(len(points))
-    slope = np.zeros((len(points), walls + k + 3)) if gradient else np.zeros((0, 0))
-    reach = np.zeros(walls + k + 3)
-    reach[walls:] = 1.0
+    slope = np.zeros((len(points), walls + k + 4)) if gradient else np.zeros((0, 0))
+    reach = np.zeros(walls + k + 4)
+    reach[walls:-1] = 1.0
     for j in range(len(stack.runs)):
         low, high = heights[j] - REACH * sigma, heights[j + 1] + REACH * sigma
         near = np.flatnonzero((z > low) & (z < high))

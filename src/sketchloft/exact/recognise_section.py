@@ -24,7 +24,7 @@ from sketchloft.shapes.spline import resampled
 from sketchloft.stack import Run, Stack
 from sketchloft.wall.swept import Swept
 
-__all__ = ["SectionShape", "recognise_section"]
+__all__ = ["SectionShape", "rarity", "recognise_section"]
 
 MOST_POINTS = 3000
 BESIDE = 4.0
@@ -83,6 +83,14 @@ def recognise_section(points: Floats, together: float) -> SectionShape | None:
     return SectionShape(tuple(outlines), len(holes))
 
 
+def rarity(outline: Outline) -> float:
+    """Log odds against an outline before the points are seen."""
+    if isinstance(outline, SplineLoop):
+        return LAST
+    edges = sum(2.0 if isinstance(edge, Arc) else 1.0 for edge in outline.edges())
+    return 0.0 if isinstance(outline, COMMON) else max(RARE, edges)
+
+
 def _best(points: Floats, ring: Floats, blur: float, together: float, *, hole: bool) -> Outline:
     """Find the best outline for one loop from the points beside it."""
     near, core, area = _beside(points, ring, BESIDE * blur, hole=hole)
@@ -97,7 +105,7 @@ def _best(points: Floats, ring: Floats, blur: float, together: float, *, hole: b
         rough.append(value)
         if value > max(rough) - hopeless:
             model, value = _sharpened(at, model, start, together)
-            value -= _rarity(outline)
+            value -= rarity(outline)
         wall = model.stack.runs[0].walls[0]
         if isinstance(wall, Swept):
             value = value if _holds(wall.outline, core[:, :2], hole=hole) else -np.inf
@@ -148,14 +156,6 @@ def _even(near: Floats, outline: Outline, blur: float, together: float) -> bool:
     angles = np.arctan2(arms[:, 1], arms[:, 0])
     powers = np.abs(np.exp(1j * WAVES[:, None] * angles).sum(axis=1)) ** 2 / max(len(angles), 1)
     return bool((powers < EVEN * together).all())
-
-
-def _rarity(outline: Outline) -> float:
-    """Log odds against an outline before the points are seen."""
-    if isinstance(outline, SplineLoop):
-        return LAST
-    edges = sum(2.0 if isinstance(edge, Arc) else 1.0 for edge in outline.edges())
-    return 0.0 if isinstance(outline, COMMON) else max(RARE, edges)
 
 
 def _simpler(polygon: Polygon) -> Polygon:

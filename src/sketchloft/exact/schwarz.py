@@ -31,5 +31,4 @@ def price(parameters: int, count: int, together: float) -> float:
 
 def evidence(points: Floats, model: ExactModel, together: float) -> float:
     """Log likelihood of the points (n, 3) of a stretch without caps, less the price of the walls."""
-    value = value_of(points, model, caps=False) - model.stray * model.space
-    return value / together - price(model.size, len(points), together)
+    return value_of(points, model, caps=False) / together - price(model.size, len(points), together)

@@ -28,6 +28,8 @@ MOST_BESIDE = 25_000
 end all that tell where a wall is are among them."""
 ENOUGH = 0.02
 """Gain of a step, in log likelihood, that is not worth another."""
+STEPS = (3, 6)
+"""Steps of a fit at one noise, after each of which the strays are looked at anew."""
 MOST_POINTS = 12_000
 """Points that the density is fitted to."""
 
@@ -54,26 +56,43 @@ def sharpened(points: Floats, model: ExactModel, *, tilt: bool) -> tuple[ExactMo
     band, judged = points, _Judged(points, 1, points[:0], 0.0)
     while True:
         before = model
-        model = thicker(fit_density(sample @ turn, thicker(replace(model, sigma=sigma), 1 / every), 1), every)
+        model, turned = replace(model, sigma=sigma), turn
         beside = beside_walls(band @ turn, model, BESIDE * sigma)
         band, near = band[beside], _judged(points, band, beside)
-        model, _, rotation = climb(
-            near.points @ turn, thicker(model, 1 / near.every), 6, tilt=tilt, enough=ENOUGH
-        )
-        model = thicker(model, near.every)
-        if sigma < before.sigma and _value(judged, model, turn @ rotation) <= _value(judged, before, turn):
+        for steps in STEPS:
+            # Which points are strays depends on the noise, and where the walls are on both.
+            model = thicker(fit_density(sample @ turned, thicker(model, 1 / every), 2), every)
+            model, _, rotation = climb(
+                near.points @ turned,
+                thicker(model, 1 / near.every),
+                steps,
+                tilt=tilt,
+                strays=True,
+                enough=ENOUGH,
+            )
+            model, turned = thicker(model, near.every), turned @ rotation
+        if sigma < before.sigma and _value(judged, model, turned) <= _value(judged, before, turn):
             model = before
             break
-        turn, judged = turn @ rotation, near
+        turn, judged = turned, near
         if sigma <= floor:
             break
         sigma = max(sigma / 2, floor)
     last, of = _thinned(points[beside_walls(points @ turn, model, BESIDE * 1.5 * model.sigma)], MOST_BESIDE)
-    model, _, rotation = climb(
-        last @ turn, thicker(model, 1 / of), 8, tilt=tilt, noise=True, least=floor, enough=ENOUGH
-    )
-    turn = turn @ rotation
-    return thicker(model, of), points @ turn, turn
+    for steps in STEPS:
+        model = thicker(fit_density(sample @ turn, thicker(model, 1 / every), 2), every)
+        model, _, rotation = climb(
+            last @ turn,
+            thicker(model, 1 / of),
+            steps,
+            tilt=tilt,
+            noise=True,
+            strays=True,
+            least=floor,
+            enough=ENOUGH,
+        )
+        model, turn = thicker(model, of), turn @ rotation
+    return model, points @ turn, turn
 
 
 def _thinned(points: Floats, most: int) -> tuple[Floats, int]:

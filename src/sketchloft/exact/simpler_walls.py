@@ -26,6 +26,8 @@ __all__ = ["as_revolved", "profiles_like", "walls_like"]
 
 HEIGHTS = 25
 TINY = 1e-12
+ROUNDED = 0.12
+"""Radius of the corners that a rectangle is tried with, in its short side."""
 MORE: tuple[Freedom, ...] = ("drift", "taper")
 
 
@@ -104,6 +106,9 @@ def _outlines_like(outline: Outline) -> Iterator[Outline]:
         yield ellipse_of(ring)
     if isinstance(outline, RoundedRectangle):
         yield Rectangle(outline.centre, outline.width, outline.height, outline.angle)
+    if isinstance(outline, Rectangle):
+        sides = (outline.width, outline.height)
+        yield RoundedRectangle(outline.centre, *sides, outline.angle, ROUNDED * min(sides))
     if isinstance(outline, RoundedPolygon):
         yield Polygon(outline.vertices)
     yield from _with_fewer_corners(outline)

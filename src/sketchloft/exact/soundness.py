@@ -28,6 +28,9 @@ LEFT = 0.02
 """Share of a section that its holes leave at least."""
 ROOM = 0.49
 """Largest fillet, in shares of a prism's edges."""
+AROUND = 32
+THIN = 1e-6
+"""Half the thickness of what stands for a section."""
 LEVELS = 17
 """Heights of a run at which its sections are looked at."""
 
@@ -44,7 +47,23 @@ def sound(model: ExactModel) -> bool:
         at = ends[LEVELS // 3 : -(LEVELS // 3)]  # a sphere may end before its break does
         if run.holes and (run.area(at) < LEFT * sum(_outer(run, at))).any():
             return False
+        if len(run.walls) > 1 and not all(_apart(run, height) for height in (at[0], at[-1])):
+            return False
         if any((wall.area(at) <= 0).any() or not _simple(wall, ends[:: LEVELS // 8]) for wall in run.walls):
+            return False
+    return True
+
+
+def _apart(run: Run, height: float) -> bool:
+    """Whether the pieces of a section lie beside each other, and the holes too, each of them in a piece."""
+    rings = [wall.boundary(height - THIN, height + THIN, AROUND).points for wall in run.walls]
+    pieces = len(run.walls) - run.holes
+    for k, ring in enumerate(rings):
+        inside = np.array([wall.foot(ring).distance < 0 for wall in run.walls])
+        inside[k] = False
+        if inside[pieces if k >= pieces else 0 : None if k >= pieces else pieces].any():
+            return False
+        if k >= pieces and not inside[:pieces].any(axis=0).all():
             return False
     return True
 

@@ -192,3 +192,27 @@ def test_walls_that_enclose_nothing_are_not_sound() -> None:
     assert not sound(model.moved(model.vector, BREAKS[::-1]))
     assert not sound(model.moved(model.vector * [1, 1, -1, 0], BREAKS))
     assert not sound(model.moved(model.vector * np.nan, BREAKS))
+
+
+def test_pieces_that_overlap_and_holes_that_break_through_are_unsound() -> None:
+    """Where pieces overlapped, their points would be explained twice."""
+
+    def stack(*, apart: float, out: float) -> Stack:
+        first, second = (
+            Swept(Rectangle(np.array([x, 0.0]), 0.2, 0.3, 0.1), 0.1, ORIGIN, ORIGIN) for x in (0, apart)
+        )
+        outer = Revolved(ORIGIN, LineProfile(0.0, 0.2, None))
+        hole = Revolved(np.array([out, 0.0]), LineProfile(0.0, 0.1, None))
+        return Stack(np.array([-0.3, 0.0, 0.3]), (Run((first, second)), Run((outer, hole), holes=1)))
+
+    assert sound(known(stack(apart=0.25, out=0.05))[1])
+    assert not sound(known(stack(apart=0.15, out=0.05))[1])
+    assert not sound(known(stack(apart=0.25, out=0.15))[1])
+
+
+def test_strays_cost_what_they_are_expected_to_be() -> None:
+    """More of them than there are explain nothing better, so that no model wins by calling its points strays."""
+    points, model = known(one_run("cylinder"))
+    strays = [replace(model, stray=model.stray * factor) for factor in (0.3, 1.0, 4.0)]
+    few, right, many = (value_of(points, other) for other in strays)
+    assert right > max(few, many)

@@ -211,7 +211,7 @@ def test_pieces_that_overlap_and_holes_that_break_through_are_unsound() -> None:
 
 
 def test_strays_cost_what_they_are_expected_to_be() -> None:
-    """More of them than there are explain nothing better, so that no model wins by calling its points strays."""
+    """More of them than there are explain nothing better: no model wins by calling its points strays."""
     points, model = known(one_run("cylinder"))
     strays = [replace(model, stray=model.stray * factor) for factor in (0.3, 1.0, 4.0)]
     few, right, many = (value_of(points, other) for other in strays)

@@ -187,25 +187,6 @@ def fit_density(points: Floats, model: ExactModel, rounds: int = 3, *, caps: boo
         coefficients[0] += float(np.clip(change, -MOST_CHANGE, MOST_CHANGE))
         if count > 1:
             coefficients = regressed(coefficients, nodes, volumes, share @ terms, steps=4)
-        stray = _stray(drawn, model.space, STRAY_MOST * len(points))
+        stray = float(np.clip((1 - share).sum(), FEWEST, STRAY_MOST * len(points))) / model.space
         model = replace(model, density=Density(coefficients), stray=stray)
     return model
-
-
-def _stray(drawn: Floats, space: float, most: float) -> float:
-    """Density of strays that makes points likeliest which lie where others have been drawn so densely (n,).
-
-    Notes
-    -----
-    What each point says of it falls with it, so that there is one (EM finds it too, but slowly).
-    """
-    from scipy.optimize import brentq  # noqa: PLC0415
-
-    def slope(count: float) -> float:
-        return float((1 / (drawn + count / space)).sum()) - space
-
-    if slope(FEWEST) <= 0:
-        return FEWEST / space
-    if slope(most) >= 0:
-        return most / space
-    return float(brentq(slope, FEWEST, most, rtol=1e-6)) / space

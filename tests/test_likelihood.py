@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 from sketchloft.cloud import Floats
 from sketchloft.exact.density import Density
 from sketchloft.exact.expected import mass_nodes, wall_nodes
-from sketchloft.exact.likelihood import beside_walls, density_of, evaluate, value_of
+from sketchloft.exact.likelihood import beside_walls, evaluate, share_of, value_of
 from sketchloft.exact.model import ExactModel, model_of
 from sketchloft.exact.soundness import sound
 from sketchloft.outline.ellipse import Ellipse
@@ -153,10 +153,8 @@ def test_scores_of_several_runs_with_pieces_and_a_hole() -> None:
     )
     points, model = known(stack)
     assert_slopes(points, model)
-    drawn = density_of(points, model)
-    share = drawn / (drawn + model.stray)
-    assert share[:COUNT].mean() > 0.98
-    assert share[COUNT:].mean() < 0.4
+    assert share_of(points, model)[:COUNT].mean() > 0.98
+    assert share_of(points, model)[COUNT:].mean() < 0.4
 
 
 @each

@@ -10,16 +10,19 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.wall.filleted import Filleted
+from sketchloft.wall.foot import WallBoundary
 from sketchloft.wall.lofted import Lofted
 from sketchloft.wall.revolved import Revolved
 from sketchloft.wall.ruled import Ruled
 from sketchloft.wall.swept import Swept
 
-__all__ = ["Run", "Stack", "Wall", "spanned"]
+__all__ = ["THIN", "Run", "Stack", "Wall", "section_boundary", "spanned"]
 
 Wall = Revolved | Swept | Ruled | Filleted | Lofted
 SPANNING = (Ruled, Filleted, Lofted)
 """Walls that begin and end at the breaks of their run."""
+THIN = 1e-6
+"""Half the thickness of what stands for a section."""
 
 
 @dataclass(frozen=True)
@@ -65,6 +68,11 @@ class Stack:
         """Each run with the heights of the breaks below and above it."""
         for run, (low, high) in zip(self.runs, pairwise(self.breaks.tolist()), strict=True):
             yield run, low, high
+
+
+def section_boundary(wall: Wall, height: float, count: int) -> WallBoundary:
+    """About `count` points around a wall's section."""
+    return wall.boundary(height - THIN, height + THIN, count)
 
 
 def spanned(stack: Stack) -> Stack:

@@ -17,7 +17,7 @@ from sketchloft.exact.simpler_walls import profiles_like, walls_like
 from sketchloft.exact.surgery import with_run, with_runs, with_split, without_run
 from sketchloft.exact.trial import Change, free_gain
 from sketchloft.intervals import cheapest_chain
-from sketchloft.stack import Run, Wall
+from sketchloft.stack import Run, Wall, section_boundary
 from sketchloft.wall.profile import Profile, SplineProfile
 from sketchloft.wall.revolved import Revolved, radius_at, sizes
 from sketchloft.wall.swept import Freedom, Swept
@@ -30,8 +30,6 @@ MOST_PIECES = 6
 SHORTEST = 4
 """Radii that each part has at least."""
 TINY = 1e-12
-THIN = 1e-6
-"""Half the thickness of what stands for a section."""
 
 
 def merges(model: ExactModel) -> Iterator[Change]:
@@ -71,7 +69,7 @@ def _slanted(model: ExactModel, heir: int, other: int) -> Run | None:
         if wall.free:
             slanted.append(replace(wall, free=free))
             continue
-        start, end = (w.boundary(z - THIN, z + THIN, 48).centre for w, z in ((wall, here), (beyond, there)))
+        start, end = (section_boundary(w, z, 48).centre for w, z in ((wall, here), (beyond, there)))
         areas = [max(float(w.area(np.array([z]))[0]), TINY) for w, z in ((wall, here), (beyond, there))]
         growth = np.sqrt(areas[1] / areas[0]) - 1
         drift, taper = (end - start) / (there - here), float(growth) / (there - here)

@@ -11,7 +11,7 @@ from sketchloft.cloud import Floats
 from sketchloft.exact.density import Density, regressed
 from sketchloft.exact.expected import mass_nodes, wall_nodes
 from sketchloft.exact.joins import joined
-from sketchloft.exact.likelihood import Evaluation, density_of, evaluate
+from sketchloft.exact.likelihood import Evaluation, evaluate, share_of
 from sketchloft.exact.model import ExactModel
 from sketchloft.exact.soundness import sound
 from sketchloft.exact.tilt import tilted
@@ -27,12 +27,12 @@ STRAY_MOST = 0.06
 MOST_CHANGE = 0.5
 """Largest change of the logarithm of the density in one round, lest it run away with a shrinking model."""
 TINY = 1e-12
+LAST = 4
+"""Parameters that come last: tilt, log sigma and log stray."""
+LARGEST = 0.5, 1.0
+"""Largest steps of the last two."""
 STRIDE = 3.0
 """How far a single parameter may move a wall in one step, in noise deviations."""
-
-
-LAST = (np.inf, np.inf, 0.5, 1.0)
-"""Largest step of the parameters that come last: tilt, log sigma and log stray; the walls bound the first."""
 
 
 def climb(
@@ -87,7 +87,7 @@ def climb(
         if runs is not None:
             free &= _of_runs(model, runs)
         if not caps:
-            free[[model.size, -len(LAST) - 1]] = False
+            free[[model.size, -LAST - 1]] = False
         moved = None
         for _ in range(6):
             step = _step(now, free, damping, model.sigma)
@@ -132,8 +132,8 @@ def _free(model: ExactModel, *, tilt: bool, noise: bool, strays: bool) -> Bools:
 
 def _of_runs(model: ExactModel, runs: range) -> Bools:
     """Parameters of some runs' walls that no other run shares, the breaks within, and the last ones."""
-    mine = np.zeros(model.size + len(model.stack.breaks) + len(LAST), dtype=bool)
-    mine[-len(LAST) :] = True
+    mine = np.zeros(model.size + len(model.stack.breaks) + LAST, dtype=bool)
+    mine[-LAST:] = True
     others = np.zeros(model.size, dtype=bool)
     for j, row in enumerate(model.slots):
         for slot in row:
@@ -155,17 +155,17 @@ def _step(now: Evaluation, free: Bools, damping: float, sigma: float) -> Floats:
     information = information + np.diag(damping * diagonal + floor * max(damping, 1e-3))
     raw = np.linalg.solve(information + 1e-12 * np.eye(len(index)), now.score[index])
     limit = STRIDE * sigma / np.maximum(now.reach[index], TINY)
-    for back, most in enumerate(LAST[::-1], 1):
-        limit[index == len(free) - back] = np.minimum(limit[index == len(free) - back], most)
+    for place, largest in zip((len(free) - 2, len(free) - 1), LARGEST, strict=True):
+        limit[index == place] = largest
     step[index] = np.clip(raw, -limit, limit)
     return step
 
 
 def _moved(model: ExactModel, step: Floats, limits: tuple[float, float]) -> tuple[ExactModel, Floats]:
     walls = model.size
-    breaks = np.maximum.accumulate(model.stack.breaks + step[walls : -len(LAST)])
+    breaks = np.maximum.accumulate(model.stack.breaks + step[walls:-LAST])
     candidate = model.moved(model.vector + step[:walls], breaks)
-    x, y, wider, more = step[-len(LAST) :].tolist()
+    x, y, wider, more = step[-LAST:].tolist()
     sigma = float(np.clip(model.sigma * np.exp(wider), *limits))
     stray = max(model.stray * float(np.exp(more)), FEWEST / model.space)
     return joined(replace(candidate, sigma=sigma, stray=stray)), tilted(x, y)
@@ -179,8 +179,7 @@ def fit_density(points: Floats, model: ExactModel, rounds: int = 3, *, caps: boo
     count = len(model.density.coefficients)
     terms, nodes = Density.terms(points, count), Density.terms(at, count)
     for _ in range(rounds):
-        drawn = density_of(points, model, caps=caps)
-        share = drawn / (drawn + model.stray)
+        share = share_of(points, model, caps=caps)
         coefficients = model.density.coefficients.copy()
         mass = max(float(np.exp(np.clip(nodes @ coefficients, -50, 50)) @ volumes), 1e-12)
         change = np.log(max(float(share.sum()), 1.0) / mass)

@@ -16,7 +16,7 @@ from sketchloft.exact.expected import expected_points, expected_slope, wall_node
 from sketchloft.exact.model import ExactModel
 from sketchloft.exact.soundness import sound
 
-__all__ = ["Evaluation", "beside_walls", "density_of", "evaluate", "value_of"]
+__all__ = ["Evaluation", "beside_walls", "evaluate", "share_of", "value_of"]
 
 REACH = 5.0
 """Noise deviations beyond which a wall is taken to be a sharp step."""
@@ -85,10 +85,10 @@ def value_of(points: Floats, model: ExactModel, *, caps: bool = True) -> float:
     return float(np.log(total).sum()) - expected
 
 
-def density_of(points: Floats, model: ExactModel, *, caps: bool = True) -> Floats:
-    """(n,) density that the model has at points (n, 3), but for the strays'."""
-    inside = _inside(points, model, model.sigma, gradient=False, caps=caps)[0]
-    return model.density.at(points) * inside
+def share_of(points: Floats, model: ExactModel, *, caps: bool = True) -> Floats:
+    """(n,) probability of each point to be none of the strays."""
+    inside = model.density.at(points) * _inside(points, model, model.sigma, gradient=False, caps=caps)[0]
+    return inside / (inside + model.stray)
 
 
 def _inside(

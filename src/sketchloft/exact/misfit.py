@@ -9,7 +9,7 @@ import numpy as np
 
 from sketchloft.cloud import Floats, Ints
 from sketchloft.exact.model import ExactModel
-from sketchloft.stack import Wall
+from sketchloft.stack import THIN, Wall, section_boundary
 
 __all__ = ["misfit"]
 
@@ -22,7 +22,6 @@ WIDEST = 0.1
 """Half the width of a band at most, as a share of the size of the section."""
 FEWEST = 0.5
 """Points that a patch expects at least."""
-THIN = 1e-6
 
 
 def misfit(points: Floats, model: ExactModel, runs: range, together: float) -> float:
@@ -83,5 +82,5 @@ class _Patches:
 
 
 def _patches(wall: Wall, low: float, high: float) -> _Patches:
-    ends = (wall.boundary(z - THIN, z + THIN, 64).centre for z in (low + THIN, high - THIN))
+    ends = (section_boundary(wall, z, 64).centre for z in (low + THIN, high - THIN))
     return _Patches(low, high, *ends)

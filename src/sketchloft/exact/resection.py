@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import numpy as np
 
 from sketchloft.cloud import Floats
@@ -37,34 +35,30 @@ def resectioned(
     upright : float
         Cosine of the angle between the direction then and now.
     """
-    place = 0
-    while True:
-        for change in _changes(points, model, together, cuts, upright):
-            if change.runs.start < place:
-                continue
-            place = change.runs.start + 1
-            better = tried(points, model, change, together)
-            if better is not None:
-                model = better
-                break
-        else:
-            return model
+    for j in range(len(model.stack.runs)):
+        change = _change(points, model, j, together) if _moved(model, j, cuts, upright) else None
+        if change is not None:
+            model = tried(points, model, change, together) or model
+    return model
 
 
-def _changes(
-    points: Floats, model: ExactModel, together: float, cuts: Floats, upright: float
-) -> Iterator[Change]:
-    for j, (run, low, high) in enumerate(model.stack.slabs()):
-        leaning = (high - low) * float(np.sqrt(max(1 - upright**2, 0.0)))
-        moved = max(leaning, *(float(np.abs(cuts - z).min()) for z in (low, high)))
-        if moved < MOVED * model.sigma:
-            continue
-        margin = min(BESIDE * model.sigma, (high - low) / 5)
-        ends = float(low + margin), float(high - margin)
-        inner = points[(points[:, 2] > ends[0]) & (points[:, 2] < ends[1])]
-        if len(inner) < FEWEST:
-            continue
-        found = segment_run(inner, ends, model.sigma, together, model.density)
-        if found is None or [wall.kind for wall in found.walls] == [wall.kind for wall in run.walls]:
-            continue
-        yield Change(with_run(model, j, found), range(j, j + 1), free=True)
+def _moved(model: ExactModel, j: int, cuts: Floats, upright: float) -> bool:
+    """Whether a break of a run, or its walls with the direction, are elsewhere than they were."""
+    low, high = model.stack.breaks[[j, j + 1]].tolist()
+    leaning = (high - low) * float(np.sqrt(max(1 - upright**2, 0.0)))
+    return max(leaning, *(float(np.abs(cuts - z).min()) for z in (low, high))) >= MOVED * model.sigma
+
+
+def _change(points: Floats, model: ExactModel, j: int, together: float) -> Change | None:
+    """A run with its section found anew; None where there is none, or walls of the same kinds."""
+    low, high = model.stack.breaks[[j, j + 1]].tolist()
+    margin = min(BESIDE * model.sigma, (high - low) / 5)
+    ends = low + margin, high - margin
+    inner = points[(points[:, 2] > ends[0]) & (points[:, 2] < ends[1])]
+    if len(inner) < FEWEST:
+        return None
+    found = segment_run(inner, ends, model.sigma, together, model.density)
+    kinds = [wall.kind for wall in model.stack.runs[j].walls]
+    if found is None or [wall.kind for wall in found.walls] == kinds:
+        return None
+    return Change(with_run(model, j, found), range(j, j + 1), free=True)

@@ -16,6 +16,7 @@ from sketchloft.exact.model import ExactModel, thicker
 __all__ = ["least_noise", "sharpened"]
 
 Bools = NDArray[np.bool_]
+Thinned = tuple[Floats, int]
 
 FLOOR = 5e-5
 """Smallest noise, as a share of the cloud's size."""
@@ -52,25 +53,14 @@ def sharpened(points: Floats, model: ExactModel, *, tilt: bool) -> tuple[ExactMo
     """
     floor = least_noise(model, len(points))
     turn, sigma = np.eye(3), model.sigma
-    sample, every = _thinned(points, MOST_POINTS)
+    sample = _thinned(points, MOST_POINTS)
     band, judged = points, _Judged(points, 1, points[:0], 0.0)
     while True:
         before = model
-        model, turned = replace(model, sigma=sigma), turn
+        model = replace(model, sigma=sigma)
         beside = beside_walls(band @ turn, model, BESIDE * sigma)
         band, near = band[beside], _judged(points, band, beside)
-        for steps in STEPS:
-            # Which points are strays depends on the noise, and where the walls are on both.
-            model = thicker(fit_density(sample @ turned, thicker(model, 1 / every), 2), every)
-            model, _, rotation = climb(
-                near.points @ turned,
-                thicker(model, 1 / near.every),
-                steps,
-                tilt=tilt,
-                strays=True,
-                enough=ENOUGH,
-            )
-            model, turned = thicker(model, near.every), turned @ rotation
+        model, turned = _fitted((near.points, near.every), sample, model, turn, tilt=tilt)
         if sigma < before.sigma and _value(judged, model, turned) <= _value(judged, before, turn):
             model = before
             break
@@ -78,24 +68,34 @@ def sharpened(points: Floats, model: ExactModel, *, tilt: bool) -> tuple[ExactMo
         if sigma <= floor:
             break
         sigma = max(sigma / 2, floor)
-    last, of = _thinned(points[beside_walls(points @ turn, model, BESIDE * 1.5 * model.sigma)], MOST_BESIDE)
-    for steps in STEPS:
-        model = thicker(fit_density(sample @ turn, thicker(model, 1 / every), 2), every)
-        model, _, rotation = climb(
-            last @ turn,
-            thicker(model, 1 / of),
-            steps,
-            tilt=tilt,
-            noise=True,
-            strays=True,
-            least=floor,
-            enough=ENOUGH,
-        )
-        model, turn = thicker(model, of), turn @ rotation
+    last = points[beside_walls(points @ turn, model, BESIDE * 1.5 * model.sigma)]
+    model, turn = _fitted(_thinned(last, MOST_BESIDE), sample, model, turn, tilt=tilt, least=floor)
     return model, points @ turn, turn
 
 
-def _thinned(points: Floats, most: int) -> tuple[Floats, int]:
+def _fitted(
+    near: Thinned, sample: Thinned, model: ExactModel, turn: Floats, *, tilt: bool, least: float | None = None
+) -> tuple[ExactModel, Floats]:
+    """Fit to the points near the walls, at one noise or at one that is free and no less; the rotation."""
+    (beside, each), (points, every) = near, sample
+    for steps in STEPS:
+        # Which points are strays depends on the noise, and where the walls are on both.
+        model = thicker(fit_density(points @ turn, thicker(model, 1 / every), 2), every)
+        model, _, rotation = climb(
+            beside @ turn,
+            thicker(model, 1 / each),
+            steps,
+            tilt=tilt,
+            noise=least is not None,
+            strays=True,
+            least=least or 0.0,
+            enough=ENOUGH,
+        )
+        model, turn = thicker(model, each), turn @ rotation
+    return model, turn
+
+
+def _thinned(points: Floats, most: int) -> Thinned:
     """Every so many points, and how many."""
     every = len(points) // most + 1
     return points[::every], every

@@ -10,7 +10,7 @@ from sketchloft.exact.model import ExactModel
 from sketchloft.outline.polygons import LineArc, Polygon
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import SplineLoop
-from sketchloft.stack import Run, Wall
+from sketchloft.stack import Run, Wall, section_boundary
 from sketchloft.wall.filleted import Filleted
 from sketchloft.wall.lofted import Lofted
 from sketchloft.wall.profile import ArcProfile, SplineProfile
@@ -29,8 +29,6 @@ LEFT = 0.02
 ROOM = 0.49
 """Largest fillet, in shares of a prism's edges."""
 AROUND = 32
-THIN = 1e-6
-"""Half the thickness of what stands for a section."""
 LEVELS = 17
 """Heights of a run at which its sections are looked at."""
 
@@ -56,14 +54,15 @@ def sound(model: ExactModel) -> bool:
 
 def _apart(run: Run, height: float) -> bool:
     """Whether the pieces of a section lie beside each other, and the holes too, each of them in a piece."""
-    rings = [wall.boundary(height - THIN, height + THIN, AROUND).points for wall in run.walls]
+    rings = [section_boundary(wall, height, AROUND).points for wall in run.walls]
     pieces = len(run.walls) - run.holes
     for k, ring in enumerate(rings):
         inside = np.array([wall.foot(ring).distance < 0 for wall in run.walls])
         inside[k] = False
-        if inside[pieces if k >= pieces else 0 : None if k >= pieces else pieces].any():
+        in_pieces, in_holes = inside[:pieces], inside[pieces:]
+        if k < pieces and in_pieces.any():
             return False
-        if k >= pieces and not inside[:pieces].any(axis=0).all():
+        if k >= pieces and (in_holes.any() or not in_pieces.any(axis=0).all()):
             return False
     return True
 

@@ -28,13 +28,14 @@ def exact_directions(body: ExactBody) -> list[str]:
     ]
     return [
         paragraph(
-            f"Of {counted(len(rows), 'direction')}, the one along which the points are most likely was taken "
-            f"and then fitted together with the walls: {words}. What follows is seen along it."
+            f"Of {counted(len(rows), 'direction')}, the one along which the points are most likely was taken, "
+            f"or of several about as likely the one whose first walls explain them best, and then fitted "
+            f"together with the walls: {words}. What follows is seen along it."
         ),
         table(
             ["direction", "why it was looked at", "log likelihood per point"],
             rows,
-            caption="Candidates for the slicing direction, the best first.",
+            caption="Candidates for the slicing direction, the one that was taken first.",
             numbers=[2],
         ),
     ]

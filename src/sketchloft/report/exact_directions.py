@@ -28,8 +28,8 @@ def exact_directions(body: ExactBody) -> list[str]:
     ]
     return [
         paragraph(
-            f"Of {counted(len(rows), 'direction')}, the one along which the points are most likely was taken, "
-            f"or of several about as likely the one whose first walls explain them best, and then fitted "
+            f"Of {counted(len(rows), 'direction')}, the one along which the points are most likely was "
+            "taken, or of several about as likely the one whose first walls explain them best, and then fitted "
             f"together with the walls: {words}. What follows is seen along it."
         ),
         table(

@@ -29,8 +29,8 @@ def exact_directions(body: ExactBody) -> list[str]:
     return [
         paragraph(
             f"Of {counted(len(rows), 'direction')}, the one along which the points are most likely was "
-            "taken, or of several about as likely the one whose first walls explain them best, and then fitted "
-            f"together with the walls: {words}. What follows is seen along it."
+            "taken, or of several about as likely the one whose first walls explain them best, and then "
+            f"fitted together with the walls: {words}. What follows is seen along it."
         ),
         table(
             ["direction", "why it was looked at", "log likelihood per point"],

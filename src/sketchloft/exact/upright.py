@@ -14,6 +14,7 @@ from sketchloft.exact.model import ExactModel, model_of
 from sketchloft.exact.simpler_walls import as_revolved
 from sketchloft.exact.tilt import onto_z
 from sketchloft.exact.trial import worth
+from sketchloft.outline.circle import Circle
 from sketchloft.stack import Run, Stack, Wall
 from sketchloft.wall.swept import Swept
 
@@ -35,10 +36,10 @@ def upright(points: Floats, model: ExactModel, together: float) -> tuple[ExactMo
         The rotation: new points = old points @ rotation.
     """
     slants = [
-        (wall.drift, high - low)
+        (slant, high - low)
         for run, low, high in model.stack.slabs()
         for wall in run.walls
-        if isinstance(wall, Swept) and "drift" in wall.free
+        if (slant := _slant(wall)) is not None
     ]
     if not slants:
         return model, np.eye(3)
@@ -57,9 +58,22 @@ def upright(points: Floats, model: ExactModel, together: float) -> tuple[ExactMo
     return (straight, turn @ rotation) if pays else (model, np.eye(3))
 
 
+def _slant(wall: Wall) -> Floats | None:
+    """Movement of a wall's middle per height, where it is free; that of a circle too that shrinks to a point
+    beside its centre.
+    """
+    if not isinstance(wall, Swept):
+        return None
+    if "drift" in wall.free:
+        return wall.drift
+    if isinstance(wall.outline, Circle) and "taper" in wall.free and not wall.bows:
+        return wall.taper * (wall.outline.centre - wall.pivot)
+    return None
+
+
 def _straight(wall: Wall) -> Wall:
     """The wall without its slant."""
-    if not isinstance(wall, Swept) or "drift" not in wall.free:
+    if not isinstance(wall, Swept) or _slant(wall) is None:
         return wall
     free = tuple(name for name in wall.free if name != "drift")
     return as_revolved(replace(wall, drift=np.zeros(2), free=free))

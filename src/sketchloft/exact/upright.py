@@ -59,9 +59,7 @@ def upright(points: Floats, model: ExactModel, together: float) -> tuple[ExactMo
 
 
 def _slant(wall: Wall) -> Floats | None:
-    """Movement of a wall's middle per height, where it is free; that of a circle too that shrinks to a point
-    beside its centre.
-    """
+    """Movement of a wall's middle per height, where it is free; also of a cone with its tip beside it."""
     if not isinstance(wall, Swept):
         return None
     if "drift" in wall.free:

@@ -13,7 +13,7 @@ from sketchloft.direction import Axis
 from sketchloft.errors import ModelError
 from sketchloft.exact.coaxial import coaxial
 from sketchloft.exact.direction import Candidate
-from sketchloft.exact.evidence import improved, without_slivers
+from sketchloft.exact.evidence import improved, merged
 from sketchloft.exact.fit import climb
 from sketchloft.exact.flush import flush
 from sketchloft.exact.inward_gap import without_gap
@@ -38,8 +38,6 @@ __all__ = ["EXACT_STAGES", "ExactBody", "ExactParams", "exact_body"]
 EXACT_STAGES = ("input", "bodies", "direction", "runs", "evidence", "fit", "solid")
 AT_LEAST = 0.004
 """Noise that the evidence is judged with at least: sharper walls would trap the search."""
-SLIVER = 0.01
-"""Runs shorter than this are looked at again once the noise is known."""
 
 
 @dataclass(frozen=True)
@@ -183,7 +181,7 @@ def _fitted(
     model = thicker(model, every)
     model, points, rotation = sharpened(start.points @ start.settling @ turn, model, tilt=tilt)
     turn = turn @ rotation
-    model = without_slivers(sample @ turn, thicker(model, 1 / every), together, SLIVER)
+    model = merged(sample @ turn, thicker(model, 1 / every), together)
     model = thicker(model, every)
     model = thicker(without_gap(model, least_noise(model, len(points))), 1 / every)
     model = flush(sample @ turn, model, together)

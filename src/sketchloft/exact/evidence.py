@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-import numpy as np
-
 from sketchloft.cloud import Floats
 from sketchloft.exact.changes import merges, splits, swaps
 from sketchloft.exact.filleted_walls import filleted
@@ -14,7 +12,7 @@ from sketchloft.exact.free_walls import lofted, ruled
 from sketchloft.exact.model import ExactModel
 from sketchloft.exact.trial import Change, tried, worth
 
-__all__ = ["improved", "merged", "without_slivers"]
+__all__ = ["improved", "merged"]
 
 CHAIN = 3
 """Runs that merging may hide from a free profile in their place."""
@@ -82,28 +80,6 @@ def _changed(points: Floats, model: ExactModel, together: float, *, lofts: bool)
         if model is before:
             break
     return model
-
-
-def without_slivers(points: Floats, model: ExactModel, together: float, length: float) -> ExactModel:
-    """Leave runs shorter than a length to their neighbours, if it pays at the noise that the points have.
-
-    Parameters
-    ----------
-    points : (n, 3) float array
-    model : ExactModel
-        Fitted.
-    together : float
-        How many of the points go together.
-    length : float
-    """
-    if (np.diff(model.stack.breaks) > length).all():
-        return model
-
-    def slivers(model: ExactModel) -> Iterator[Change]:
-        if (np.diff(model.stack.breaks) < length).any():
-            yield from merges(model)
-
-    return _through(points, model, together, slivers, set(), again=True)
 
 
 def _through(

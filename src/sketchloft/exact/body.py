@@ -3,28 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
-
-import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.direction import Axis
 from sketchloft.errors import ModelError
-from sketchloft.exact.coaxial import coaxial
+from sketchloft.exact.choose_start import started
 from sketchloft.exact.direction import Candidate
-from sketchloft.exact.evidence import improved, merged
-from sketchloft.exact.fit import climb
-from sketchloft.exact.flush import flush
-from sketchloft.exact.inward_gap import without_gap
-from sketchloft.exact.joins import natural_joins
-from sketchloft.exact.likelihood import beside_walls
-from sketchloft.exact.model import ExactModel, thicker
-from sketchloft.exact.resection import resectioned
+from sketchloft.exact.model import ExactModel
+from sketchloft.exact.search import searched
 from sketchloft.exact.segments import SegmentsParams
-from sketchloft.exact.sharpen import least_noise, sharpened
-from sketchloft.exact.start import BESIDE, Start, started
-from sketchloft.exact.upright import upright
 from sketchloft.frame import Frame
 from sketchloft.robust_size import middle_and_size
 from sketchloft.wall.lofted import Lofted
@@ -36,8 +25,6 @@ if TYPE_CHECKING:
 __all__ = ["EXACT_STAGES", "ExactBody", "ExactParams", "exact_body"]
 
 EXACT_STAGES = ("input", "bodies", "direction", "runs", "evidence", "fit", "solid")
-AT_LEAST = 0.004
-"""Noise that the evidence is judged with at least: sharper walls would trap the search."""
 
 
 @dataclass(frozen=True)
@@ -129,60 +116,30 @@ def exact_body(
 
     progress("direction")
     middle, scale = middle_and_size(points)
-    start = started((points - middle) / scale, axis, params.segments, progress)
+    starts = started((points - middle) / scale, axis, params.segments, progress)
     progress("evidence")
     for lofts in (True, False):
-        model, points, turn = _fitted(start, tilt=axis == "auto", lofts=lofts, progress=progress)
-        found = Frame(turn.T @ start.frame.axes)
+        found = searched(starts, tilt=axis == "auto", lofts=lofts, progress=progress)
+        start, stack = found.start, found.model.stack
+        frame = Frame(found.turn.T @ start.frame.axes)
         progress("solid")
         try:
-            solid, facts = built_stack(model.stack, origin + middle, found.axes, scale)
+            solid, facts = built_stack(stack, origin + middle, frame.axes, scale)
             break
         except ModelError:
-            if not any(isinstance(wall, Lofted) for run in model.stack.runs for wall in run.walls):
+            if not any(isinstance(wall, Lofted) for run in stack.runs for wall in run.walls):
                 raise
     return ExactBody(
         name,
-        points,
-        found.direction,
+        found.points,
+        frame.direction,
         start.candidates,
-        found,
+        frame,
         middle,
         scale,
         start.cuts,
         start.first,
-        model,
+        found.model,
         solid,
         facts,
     )
-
-
-def _fitted(
-    start: Start, *, tilt: bool, lofts: bool, progress: Callable[[str], None]
-) -> tuple[ExactModel, Floats, Floats]:
-    """Find the runs on a sample and fit them to all points; those turned with the direction; the rotation."""
-    sample, together, model = start.sample, start.together, start.settled
-    model = natural_joins(replace(natural_joins(model), sigma=max(model.sigma, AT_LEAST)))
-    model, _, _ = climb(sample[beside_walls(sample, model, BESIDE * model.sigma)], model, 8)
-    turn = np.eye(3)
-    if tilt:
-        model, turn = upright(sample, model, together)
-    model = improved(sample @ turn, model, together, lofts=lofts)
-    if tilt:
-        model, rotation = upright(sample @ turn, model, together)
-        turn = turn @ rotation
-    again = resectioned(sample @ turn, model, together, start.cuts, (start.settling @ turn)[2, 2])
-    if again is not model:
-        model = improved(sample @ turn, again, together, lofts=lofts)
-    model, _, rotation = coaxial(sample @ turn, model, together, tilt=tilt)
-    turn = turn @ rotation
-    progress("fit")
-    every = len(start.points) / len(sample)
-    model = thicker(model, every)
-    model, points, rotation = sharpened(start.points @ start.settling @ turn, model, tilt=tilt)
-    turn = turn @ rotation
-    model = merged(sample @ turn, thicker(model, 1 / every), together)
-    model = thicker(model, every)
-    model = thicker(without_gap(model, least_noise(model, len(points))), 1 / every)
-    model = flush(sample @ turn, model, together)
-    return thicker(model, every), points, start.settling @ turn

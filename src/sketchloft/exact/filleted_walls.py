@@ -13,11 +13,11 @@ from sketchloft.exact.surgery import with_runs
 from sketchloft.exact.trial import Change, tried_free
 from sketchloft.outline.candidates import rectangle_of
 from sketchloft.outline.placed_polygons import Rectangle, RoundedRectangle
-from sketchloft.stack import Run
+from sketchloft.stack import Run, Wall
 from sketchloft.wall.filleted import ENDS, Filleted
 from sketchloft.wall.swept import Swept
 
-__all__ = ["filleted"]
+__all__ = ["filleted", "fillets"]
 
 START = 0.12
 """Fillet that is tried first, in shares of the short side."""
@@ -48,8 +48,8 @@ def filleted(points: Floats, model: ExactModel, together: float) -> ExactModel:
     for chain, outline in _chains(model):
         before = value_of(points, model)
         best: tuple[float, ExactModel] | None = None
-        for slight, wall in zip(_starts(outline, SLIGHT), _starts(outline, START), strict=True):
-            sharp = len(chain) == 1 and isinstance(outline, Rectangle)
+        for slight, wall in zip(*fillets(outline), strict=True):
+            sharp = len(chain) == 1 and _straight(model.stack.runs[chain.start].walls[0])
             if sharp and value_of(points, _with(model, chain, slight)) <= before:
                 continue
             change = Change(_with(model, chain, wall), range(chain.start, chain.start + 1), GAIN)
@@ -63,6 +63,11 @@ def filleted(points: Floats, model: ExactModel, together: float) -> ExactModel:
     return model
 
 
+def fillets(outline: Rectangle | RoundedRectangle) -> tuple[Iterator[Filleted], Iterator[Filleted]]:
+    """Prisms over an outline with fillets on all edges or on those of an end, with slight and larger ones."""
+    return _starts(outline, SLIGHT), _starts(outline, START)
+
+
 def _with(model: ExactModel, chain: range, wall: Filleted) -> ExactModel:
     return with_runs(model, chain.start, chain.stop - 1, Run((wall,)))
 
@@ -74,6 +79,11 @@ def _starts(outline: Rectangle | RoundedRectangle, share: float) -> Iterator[Fil
     for ends in ENDS:
         yield Filleted(RoundedRectangle(*sides, share * short), None, ends)
         yield Filleted(Rectangle(*sides), share * short, ends)
+
+
+def _straight(wall: Wall) -> bool:
+    """Whether a wall is a prism with sharp edges, which slight fillets tell something of."""
+    return isinstance(wall, Swept) and isinstance(wall.outline, Rectangle) and not wall.free
 
 
 def _chains(model: ExactModel) -> Iterator[tuple[range, Rectangle | RoundedRectangle]]:

@@ -27,11 +27,12 @@ def first_stack(
     together: float,
     density: Density,
     space: float,
+    rough: bool = False,
 ) -> ExactModel | None:
     """Model of the segments between cuts (k + 1,), from points (n, 3) without strays.
 
     Segments too thin or too empty for a section of their own are left to their neighbours. None where
-    no segment has a section.
+    no segment has a section. A rough one knows few kinds of sections.
     """
     runs: list[Run] = []
     breaks: list[float] = []
@@ -41,7 +42,7 @@ def first_stack(
         ends = float(low + margin), float(high - margin)
         inner = points[(points[:, 2] > ends[0]) & (points[:, 2] < ends[1])]
         thin = high - low < blur or len(inner) < FEWEST
-        found = None if thin else segment_run(inner, ends, sigma, together, density)
+        found = None if thin else segment_run(inner, ends, sigma, together, density, rough=rough)
         if found is None:
             continue
         runs.append(found)

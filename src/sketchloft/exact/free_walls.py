@@ -10,6 +10,7 @@ from sketchloft.exact.misfit import misfit
 from sketchloft.exact.model import ExactModel
 from sketchloft.exact.ruled_start import ruled_start
 from sketchloft.exact.schwarz import price
+from sketchloft.exact.square_to_round import square_to_round
 from sketchloft.exact.surgery import with_runs
 from sketchloft.exact.trial import Change, tried_free
 from sketchloft.stack import Run
@@ -25,6 +26,8 @@ GAIN = 20.0
 CHEAP = 2.5
 """What each pole of a loft must gain. Where no line or circle does, poles are there to follow the points, and
 one that tells of more than chance brings the wall nearer to the truth (Akaike's criterion asks for 1)."""
+CLEAR = 0.0042
+"""Noise, as a share of the size, up to which the walls of a cloud of strokes are looked at for a misfit."""
 HOPE = 8.0
 """How much more a loft may gain than the misfit shows, which counts points where walls weigh them."""
 LOFTS = (((12, 2), (12, 4), (18, 4), (24, 6)), ((16, 1), (24, 1), (24, 3)))
@@ -57,17 +60,22 @@ def ruled(points: Floats, model: ExactModel, together: float) -> ExactModel:
     """One ruled wall for a chain of runs, or for one run, where it pays."""
     for chain in reversed(smooth_chains(model)):
         walls = [model.stack.runs[j].walls[0] for j in chain]
-        done = any(isinstance(wall, (Revolved, Ruled, Filleted, Lofted)) for wall in walls)
-        if done or HOPE * misfit(points, model, chain, together) <= GAIN:
+        revolved = all(isinstance(wall, Revolved) for wall in walls)
+        if revolved or any(isinstance(wall, (Ruled, Filleted, Lofted)) for wall in walls):
+            continue
+        # Strokes lie too unevenly beside the walls for a misfit to show; that they are blurred does.
+        blurred = together > 1 and model.sigma > CLEAR
+        if not blurred and HOPE * misfit(points, model, chain, together) <= GAIN:
             continue
         ends = float(model.stack.breaks[chain.start]), float(model.stack.breaks[chain.stop])
-        wall = ruled_start(points, ends, together)
-        if wall is not None:
-            change = with_runs(model, chain.start, chain.stop - 1, Run((wall,)))
-            better, _ = tried_free(
-                points, model, Change(change, range(chain.start, chain.start + 1)), together
-            )
-            model = better or model
+        found: list[tuple[float, ExactModel]] = []
+        for wall in (*square_to_round(model, chain), ruled_start(points, ends, together)):
+            if wall is not None:
+                change = with_runs(model, chain.start, chain.stop - 1, Run((wall,)))
+                runs = range(chain.start, chain.start + 1)
+                better, gain = tried_free(points, model, Change(change, runs), together)
+                found += [] if better is None else [(gain, better)]
+        model = max(found, key=lambda one: one[0])[1] if found else model
     return model
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,7 +13,14 @@ from sketchloft.exact.fit import climb, fit_density
 from sketchloft.exact.model import ExactModel, model_of
 from sketchloft.exact.schwarz import evidence
 from sketchloft.exact.section_contours import contours
-from sketchloft.outline.candidates import chains, circle_of, ellipse_of, polygons, spline_of
+from sketchloft.outline.candidates import (
+    chains,
+    circle_of,
+    ellipse_of,
+    polygons,
+    rectangle_of,
+    spline_of,
+)
 from sketchloft.outline.circle import Circle
 from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.outline import Arc, Outline
@@ -66,7 +74,7 @@ class SectionShape:
     holes: int
 
 
-def recognise_section(points: Floats, together: float) -> SectionShape | None:
+def recognise_section(points: Floats, together: float, *, rough: bool = False) -> SectionShape | None:
     """Find the outlines of a section filled by points (n, 2); None where there is no section.
 
     Parameters
@@ -74,12 +82,14 @@ def recognise_section(points: Floats, together: float) -> SectionShape | None:
     points : (n, 2) float array
     together : float
         How many of the points go together; evidence counts that much less.
+    rough : bool
+        Whether a few kinds of outlines will do.
     """
     outer, holes, blur = contours(points, together)
     if not outer:
         return None
-    outlines = [_best(points, ring, blur, together, hole=False) for ring in outer]
-    outlines += [_best(points, ring, blur, together, hole=True) for ring in holes]
+    outlines = [_best(points, ring, blur, together, hole=False, rough=rough) for ring in outer]
+    outlines += [_best(points, ring, blur, together, hole=True, rough=rough) for ring in holes]
     return SectionShape(tuple(outlines), len(holes))
 
 
@@ -91,19 +101,19 @@ def rarity(outline: Outline) -> float:
     return 0.0 if isinstance(outline, COMMON) else max(RARE, edges)
 
 
-def _best(points: Floats, ring: Floats, blur: float, together: float, *, hole: bool) -> Outline:
+def _best(points: Floats, ring: Floats, blur: float, together: float, *, hole: bool, rough: bool) -> Outline:
     """Find the best outline for one loop from the points beside it."""
     near, core, area = _beside(points, ring, BESIDE * blur, hole=hole)
     tried: list[tuple[float, Outline]] = []
-    rough = [-np.inf]
+    seen = [-np.inf]
     hopeless = max(HOPELESS[0] / together, HOPELESS[1])
 
     def attempt(outline: Outline) -> float:
         start = _model(near, core, area, outline, 0.5 * blur, hole=hole)
         at = np.column_stack([near, np.zeros(len(near))])
         model, value = _settled(at, start, together)
-        rough.append(value)
-        if value > max(rough) - hopeless:
+        seen.append(value)
+        if value > max(seen) - hopeless:
             model, value = _sharpened(at, model, start, together)
             value -= rarity(outline)
         wall = model.stack.runs[0].walls[0]
@@ -117,11 +127,23 @@ def _best(points: Floats, ring: Floats, blur: float, together: float, *, hole: b
     ellipse = attempt(ellipse_of(ring))
     if circle > max(free, ellipse) and _even(near, tried[1][1], blur, together):
         return tried[1][1]
+    if rough:
+        attempt(rectangle_of(ring))
+        return _likeliest(tried)
+    _attempt_corners(attempt, tried, ring, blur)
+    curved = isinstance(_likeliest(tried), (LineArc, SplineLoop))
+    for poles in POLES[1:] if curved else ():
+        attempt(spline_of(ring, poles))
+    return _likeliest(tried)
+
+
+def _attempt_corners(
+    attempt: Callable[[Outline], float], tried: list[tuple[float, Outline]], ring: Floats, blur: float
+) -> None:
+    """Try outlines with corners, and the best polygon with fewer and fewer of them."""
     cut = chains(ring, blur)
-    for outline in cut:
-        attempt(outline)
     polygon = next((outline for outline in cut if isinstance(outline, Polygon)), None)
-    for outline in polygons(ring, polygon, blur):
+    for outline in (*cut, *polygons(ring, polygon, blur)):
         attempt(outline)
     plain = [found for found in tried if isinstance(found[1], Polygon)]
     value, outline = max(plain or tried, key=lambda found: found[0])
@@ -130,10 +152,9 @@ def _best(points: Floats, ring: Floats, blur: float, together: float, *, hole: b
         if simpler < value:
             break
         value, outline = tried[-1]
-    outline = max(tried, key=lambda found: found[0])[1]
-    curved = isinstance(outline, (LineArc, SplineLoop))
-    for poles in POLES[1:] if curved else ():
-        attempt(spline_of(ring, poles))
+
+
+def _likeliest(tried: list[tuple[float, Outline]]) -> Outline:
     return max(tried, key=lambda found: found[0])[1]
 
 

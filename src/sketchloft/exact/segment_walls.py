@@ -33,7 +33,13 @@ REACH = 0.03
 
 
 def segment_run(
-    points: Floats, ends: tuple[float, float], sigma: float, together: float, density: Density
+    points: Floats,
+    ends: tuple[float, float],
+    sigma: float,
+    together: float,
+    density: Density,
+    *,
+    rough: bool = False,
 ) -> Run | None:
     """Find the walls of a segment; None if its points have no section.
 
@@ -49,12 +55,14 @@ def segment_run(
         How many of the points go together.
     density : Density
         Inside, about.
+    rough : bool
+        Whether a few kinds of sections will do.
     """
     plan = plan_view(points, clump(together))
     twist = twist_of(plan, points[:, 2] - plan.height)
     if twist:
         plan = untwisted(plan, points[:, 2] - plan.height, twist)
-    shape = recognise_section(plan.points, together)
+    shape = recognise_section(plan.points, together, rough=rough)
     if shape is None:
         return None
     if len(points) > MOST_POINTS:

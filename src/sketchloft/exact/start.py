@@ -1,17 +1,12 @@
-"""Start: the direction to slice along and the first stack along it, settled on the points.
-
-Directions that explain the points about as well are told apart by their first stacks.
-"""
+"""Start: the first stack along a direction, settled on the points."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.direction import Axis
 from sketchloft.dispersion import clump, dispersion
 from sketchloft.errors import StageError
 from sketchloft.exact.direction import Candidate, exact_direction
@@ -27,7 +22,7 @@ from sketchloft.exact.trial import MOST_NOISE, worth
 from sketchloft.frame import Frame, frame_along, principal_frame
 from sketchloft.wall.swept import Swept
 
-__all__ = ["BESIDE", "ROOM", "SEARCH_POINTS", "Start", "started"]
+__all__ = ["BESIDE", "ROOM", "SEARCH_POINTS", "Start", "directions", "start_along"]
 
 START = 0.006
 """Noise that the search begins with, as a share of the size."""
@@ -41,12 +36,6 @@ BESIDE = 8.0
 """Noise deviations beside the walls within which points are fitted."""
 HOLLOW = 0.4
 """Share of a closed region that is empty inside from which on it is a skin."""
-CLOSE = 0.03
-"""Log likelihood per point by which a direction may be behind the best and yet have the better stack, where
-no points go together."""
-TURNED = 0.04
-"""Angle in radians by which the fit of a first stack has turned that is worth another."""
-CONTENDERS = 3
 
 
 @dataclass(frozen=True)
@@ -82,60 +71,57 @@ class Start:
     merged: ExactModel
     settling: Floats
 
+    @property
+    def direction(self) -> Floats:
+        """The direction (3,) after settling, in the axes of all points."""
+        axis: Floats = (self.settling.T @ self.frame.axes)[2]
+        return axis
 
-def started(points: Floats, axis: Axis, params: SegmentsParams, progress: Callable[[str], None]) -> Start:
-    """Find the direction and the first stack.
+    @property
+    def value(self) -> float:
+        """What the merged stack is worth."""
+        return worth(self.sample, self.merged, self.together, len(self.sample))
+
+    @property
+    def plain(self) -> bool:
+        """Whether there is one run, and all its sections are the same: nothing simpler can be found."""
+        runs = self.merged.stack.runs
+        moving = any(isinstance(wall, Swept) and wall.free for run in runs for wall in run.walls)
+        return len(runs) == 1 and not moving
+
+
+def start_along(
+    points: Floats,
+    vector: Floats,
+    candidates: tuple[Candidate, ...],
+    params: SegmentsParams,
+    *,
+    fine: bool = False,
+    rough: bool = False,
+) -> Start:
+    """First stack along a direction.
 
     Parameters
     ----------
     points : (n, 3) float array
         About 1 across, about their middle.
-    axis : "auto" or (3,) tuple of float
+    vector : (3,) float array
+    candidates : tuple of Candidate
+        Directions that were compared; where there are none, the direction is given and does not move.
     params : SegmentsParams
-    progress : callable
-        Called with "runs" when the direction is known, or a few are.
+    fine : bool
+        Whether heights are cut as finely as independent points would allow.
+    rough : bool
+        Whether a few kinds of sections will do.
 
     Raises
     ------
     StageError
         If no section is found, or the points are on a skin.
     """
-    candidates = _candidates(points, params) if axis == "auto" else ()
-    progress("runs")
-    vector = candidates[0].vector if candidates else np.asarray(axis, dtype=float)
-    best = _start(points, vector, candidates, params, fine=False)
-    close = CLOSE * float(np.sqrt(best.together))
-    for k, other in enumerate(candidates[1:CONTENDERS], 1):
-        if _plain(best.merged) or other.value < candidates[0].value - close:
-            break
-        order = (other, *candidates[:k], *candidates[k + 1 :])
-        best = max(best, _start(points, other.vector, order, params, fine=False), key=_worth)
-    if best.settling[2, 2] < np.cos(TURNED) and not _plain(best.merged):
-        turned = best.settling.T @ best.frame.axes
-        best = max(best, _start(points, turned[2], best.candidates, params, fine=False), key=_worth)
-    if best.together > 1 and not _plain(best.merged):
-        fine = _start(points, best.frame.axes[2], best.candidates, params, fine=True)
-        best = max(best, fine, key=_worth)
-    return best
-
-
-def _plain(model: ExactModel) -> bool:
-    """Whether there is one run, and all its sections are the same: nothing simpler can be found."""
-    walls = [wall for run in model.stack.runs for wall in run.walls]
-    return len(model.stack.runs) == 1 and not any(isinstance(wall, Swept) and wall.free for wall in walls)
-
-
-def _worth(start: Start) -> float:
-    return worth(start.sample, start.merged, start.together, len(start.sample))
-
-
-def _start(
-    points: Floats, vector: Floats, candidates: tuple[Candidate, ...], params: SegmentsParams, *, fine: bool
-) -> Start:
-    """First stack along a direction, with cuts as few as strokes call for, or finer ones."""
     frame = frame_along(vector, points)
     local = np.round(frame.to_local(points), DIGITS)
-    sample = _sample(local)
+    sample = _sampled(local)
     grid, together, kept = _seen(sample)
     if hollow_share(grid) > HOLLOW:
         raise StageError(
@@ -146,7 +132,9 @@ def _start(
     density = inside_density(sample, grid, together)
     cuts = segments(kept, params, clump(together) if fine else together)
     space = ROOM * float(np.prod(np.ptp(sample, axis=0)))
-    first = first_stack(kept, cuts, grid.blur, sigma=START, together=together, density=density, space=space)
+    first = first_stack(
+        kept, cuts, grid.blur, sigma=START, together=together, density=density, space=space, rough=rough
+    )
     if first is None:
         raise StageError("found no section that the points fill; draw more of the inside", stage="runs")
     settled, sample, settling = _settled(sample, first, tilt=bool(candidates))
@@ -154,17 +142,28 @@ def _start(
     return Start(candidates, frame, local, sample, cuts, together, first, settled, lean, settling)
 
 
-def _candidates(points: Floats, params: SegmentsParams) -> tuple[Candidate, ...]:
-    """Directions, found in the frame of the principal axes so that they turn with the cloud."""
+def directions(points: Floats, params: SegmentsParams) -> tuple[Candidate, ...]:
+    """Directions to slice along, the likeliest first.
+
+    Parameters
+    ----------
+    points : (n, 3) float array
+        About 1 across, about their middle.
+    params : SegmentsParams
+
+    Notes
+    -----
+    They are found in the frame of the principal axes, so that they turn with the cloud.
+    """
     frame = principal_frame(points)
-    grid, together, kept = _seen(_sample(np.round(frame.to_local(points), DIGITS)))
+    grid, together, kept = _seen(_sampled(np.round(frame.to_local(points), DIGITS)))
     mean = kept.mean(axis=0)
     grid = replace(grid, origin=grid.origin - mean)
     found = exact_direction(kept - mean, grid, params, clump(together))
     return tuple(replace(candidate, vector=frame.to_world(candidate.vector)) for candidate in found)
 
 
-def _sample(points: Floats) -> Floats:
+def _sampled(points: Floats) -> Floats:
     """Every so many points, as many as the search looks at."""
     return points[:: len(points) // SEARCH_POINTS + 1]
 

@@ -1,0 +1,98 @@
+"""Upended: a box stood on another of its faces, along edges that may be rounded."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from sketchloft.cloud import Floats
+from sketchloft.exact.density import Density
+from sketchloft.exact.evidence import improved
+from sketchloft.exact.filleted_walls import fillets
+from sketchloft.exact.fit import fit_density
+from sketchloft.exact.likelihood import value_of
+from sketchloft.exact.model import ExactModel, model_of
+from sketchloft.exact.trial import worth
+from sketchloft.outline.placed_polygons import Rectangle
+from sketchloft.stack import Run, Stack, Wall
+from sketchloft.wall.swept import Swept
+
+__all__ = ["upended"]
+
+HINT = 0.5
+"""Log likelihood of independent points that fillets of a given size must gain for others to be tried."""
+
+
+def upended(points: Floats, model: ExactModel, together: float, *, lofts: bool) -> tuple[ExactModel, Floats]:
+    """Stand a box with sharp edges on another face where its edges from there are rounded.
+
+    Returns
+    -------
+    ExactModel
+    (3, 3) float array
+        The rotation: new points = old points @ rotation.
+
+    Notes
+    -----
+    A box is the same along either of its edges, so that its sections do not tell the direction. Fillets do:
+    those along one edge, or around one face, are rounded corners or ends of a prism along that edge only.
+    """
+    best, turn = model, np.eye(3)
+    for other, rotation in _stood_otherwise(points, model):
+        turned = points @ rotation
+        least = value_of(turned, other) + HINT * together
+        if max(value_of(turned, _with(other, wall)) for wall in _rounded(other)) > least:
+            found = improved(turned, other, together, lofts=lofts)
+            if best is model:
+                best = fit_density(points, model)
+            if _worth(turned, found, together) > _worth(points @ turn, best, together):
+                best, turn = found, rotation
+    return best, turn
+
+
+def _worth(points: Floats, model: ExactModel, together: float) -> float:
+    return worth(points, model, together, len(points))
+
+
+def _stood_otherwise(points: Floats, model: ExactModel) -> list[tuple[ExactModel, Floats]]:
+    """The box along its two other edges, and the rotations that bring these along z; none if it is no box."""
+    (run, low, high), *others = model.stack.slabs()
+    wall = run.walls[0]
+    if others or len(run.walls) > 1 or not isinstance(wall, Swept) or wall.free:
+        return []
+    box = wall.outline
+    if not isinstance(box, Rectangle):
+        return []
+    cos, sin = np.cos(box.angle), np.sin(box.angle)
+    along, across, up = np.array([cos, sin, 0.0]), np.array([-sin, cos, 0.0]), np.array([0.0, 0.0, 1.0])
+    middle = np.array([*box.centre, (low + high) / 2])
+    sizes = np.array([box.width, box.height, high - low])
+    found = []
+    for axes, order in (((across, up, along), (1, 2, 0)), ((up, along, across), (2, 0, 1))):
+        rotation = np.column_stack(axes)
+        x, y, z = (middle @ rotation).tolist()
+        width, height, length = sizes[list(order)].tolist()
+        outline = Rectangle(np.array([x, y]), width, height, 0.0)
+        stack = Stack(np.array([z - length / 2, z + length / 2]), (Run((replace(wall, outline=outline),)),))
+        count = len(points) / float(sizes.prod())
+        density = np.zeros(len(model.density.coefficients))
+        density[0] = np.log(count)
+        stood = model_of(stack, model.sigma, Density(density), model.stray, model.space)
+        found.append((fit_density(points @ rotation, stood), rotation))
+    return found
+
+
+def _rounded(model: ExactModel) -> Iterator[Wall]:
+    """The box with fillets on the edges along it, on all edges, and on those of either end."""
+    wall = model.stack.runs[0].walls[0]
+    if isinstance(wall, Swept) and isinstance(wall.outline, Rectangle):
+        for prisms in map(list, fillets(wall.outline)):
+            yield replace(wall, outline=prisms[0].outline)
+            yield from prisms
+
+
+def _with(model: ExactModel, wall: Wall) -> ExactModel:
+    stack = Stack(model.stack.breaks, (Run((wall,)),))
+    return replace(model_of(stack, model.sigma, model.density, model.stray, model.space), core=model.core)

@@ -14,6 +14,7 @@ from sketchloft.exact.expected import mass_nodes, wall_nodes
 from sketchloft.exact.likelihood import beside_walls, evaluate, share_of, value_of
 from sketchloft.exact.model import ExactModel, model_of
 from sketchloft.exact.soundness import sound
+from sketchloft.outline.divided_circle import DividedCircle
 from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.outline import Outline
 from sketchloft.outline.placed_polygons import Rectangle, RegularPolygon, RoundedRectangle
@@ -81,6 +82,9 @@ WALLS: dict[str, Wall] = {
         RegularPolygon(CENTRE, 0.4, 0.2, 4),
         LineArc(RegularPolygon(ORIGIN, 0.3, 0.3, 4).chain()[0], ROUND, ROUND != 0),
         *BREAKS.tolist(),
+    ),
+    "square to round": Ruled(
+        Rectangle(CENTRE, 0.6, 0.4, 0.3), DividedCircle(ORIGIN, 0.25, 1.0, -0.1, 4), *BREAKS.tolist()
     ),
 }
 each = pytest.mark.parametrize("name", WALLS)

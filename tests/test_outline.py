@@ -7,6 +7,7 @@ from scipy.spatial import cKDTree
 from sketchloft.outline.chain import chain_area, chain_boundary
 from sketchloft.outline.chain_foot import chain_foot
 from sketchloft.outline.circle import Circle
+from sketchloft.outline.divided_circle import DividedCircle
 from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.outline import Arc, Boundary, Closed, Outline, Segment
 from sketchloft.outline.placed_polygons import Rectangle, RegularPolygon, RoundedRectangle
@@ -38,6 +39,8 @@ OUTLINES: dict[str, Outline] = {
     "rounded rectangle": RoundedRectangle(CENTRE, 1.0, 2.0, 0.4, 0.2),
     "stadium": RoundedRectangle(CENTRE, 2.0, 1.0, 0.4, 0.5),
     "regular polygon": RegularPolygon(CENTRE, 1.0, 0.3, 5),
+    "divided circle": DividedCircle(CENTRE, 1.1, 0.3, 0.0, 5),
+    "circle of four arcs": DividedCircle(CENTRE, 1.1, 0.3, 0.2, 4),
     "polygon": Polygon(ELL),
     "rounded polygon": RoundedPolygon(ELL, 0.2),
     "line-arc": LineArc(ELL, BULGES, np.array([False, True, False, True, True, True])),

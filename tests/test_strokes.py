@@ -1,0 +1,82 @@
+"""Scribbled things: strokes that drift blur every direction alike, and yet the right one is found."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from scribbles import scribbled
+from sketchloft import Params, PointCloud, reconstruct
+from sketchloft.cloud import Floats
+from sketchloft.exact.body import ExactBody
+from sketchloft.outline.divided_circle import DividedCircle
+from sketchloft.outline.outline import Outline
+from sketchloft.outline.placed_polygons import Rectangle, RoundedRectangle
+from sketchloft.stack import Run, Stack, Wall
+from sketchloft.stack_volume import stack_volume
+from sketchloft.wall.filleted import Filleted
+from sketchloft.wall.ruled import Ruled
+from sketchloft.wall.swept import Swept
+
+N = 10_000
+ORIGIN = np.zeros(2)
+SLOW = pytest.mark.slow
+
+
+def prism(outline: Outline, twist: float = 0.0) -> Swept:
+    return Swept(outline, 2.5, ORIGIN, ORIGIN, 0.0, twist, ("twist",) if twist else ())
+
+
+SQUARE = Rectangle(ORIGIN, 6.0, 6.0, 0.3)
+ROUNDED = RoundedRectangle(ORIGIN, 6.0, 4.0, 0.2, 0.9)
+WALLS: dict[str, tuple[Wall, float]] = {
+    "square to round": (Ruled(SQUARE, DividedCircle(ORIGIN, 2.6, 0.3 + np.pi / 4, 0.0, 4), 0.0, 6.0), 6.0),
+    "round to square": (Ruled(DividedCircle(ORIGIN, 2.0, 0.3 + np.pi / 4, 0.0, 4), SQUARE, 0.0, 6.0), 6.0),
+    "edges rounded": (prism(ROUNDED), 5.0),
+    "all edges rounded": (
+        Filleted(RoundedRectangle(ORIGIN, 6.0, 4.0, 0.2, 0.9), None, "both", 0.0, 5.0),
+        5.0,
+    ),
+    "one face rounded": (Filleted(Rectangle(ORIGIN, 6.0, 4.0, 0.2), 0.9, "top", 0.0, 5.0), 5.0),
+    "twisted": (prism(Rectangle(ORIGIN, 6.0, 3.5, 0.2), 0.08), 5.0),
+}
+KINDS = {
+    "square to round": "ruled",
+    "round to square": "ruled",
+    "edges rounded": "rounded rectangle",
+    "all edges rounded": "filleted prism",
+    "one face rounded": "filleted prism",
+}
+
+
+def points_in(name: str, seed: int = 1) -> Floats:
+    wall, height = WALLS[name]
+
+    def inside(points: Floats) -> np.ndarray:
+        within = (points[:, 2] > 0) & (points[:, 2] < height)
+        within[within] = wall.foot(points[within]).distance < 0
+        return within
+
+    return scribbled(inside, np.array([-5.0, -5.0, 0.0]), np.array([5.0, 5.0, height]), N, seed)
+
+
+def model(name: str) -> ExactBody:
+    (body,) = reconstruct(PointCloud.of(points_in(name)), Params("exact")).bodies
+    assert isinstance(body, ExactBody), body.instead
+    return body
+
+
+@pytest.mark.parametrize(
+    "name", ["square to round", *(pytest.param(name, marks=SLOW) for name in [*KINDS][1:])]
+)
+def test_what_was_scribbled_is_recognised(name: str) -> None:
+    body = model(name)
+    assert [[wall.kind for wall in run.walls] for run in body.model.stack.runs] == [[KINDS[name]]]
+    wall, height = WALLS[name]
+    true = Stack(np.array([0.0, height]), (Run((wall,)),))
+    assert body.facts.volume == pytest.approx(stack_volume(true), rel=0.03)
+
+
+@SLOW
+def test_the_direction_of_a_twisted_scribble_is_found() -> None:
+    assert abs(model("twisted").vector[2]) > np.cos(np.radians(2))

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from sketchloft.cloud import Floats
+from sketchloft.exact.turning import turning
 from sketchloft.outline.candidates import circle_of, ellipse_of, polygons, spline_of
 from sketchloft.outline.circle import Circle
 from sketchloft.outline.ellipse import Ellipse
@@ -20,6 +21,7 @@ from sketchloft.stack import Wall
 from sketchloft.wall.dome import taper_and_bow
 from sketchloft.wall.profile import ArcProfile, LineProfile, Profile, SplineProfile
 from sketchloft.wall.revolved import Revolved, radius_at
+from sketchloft.wall.ruled import Ruled
 from sketchloft.wall.swept import Freedom, Swept
 
 __all__ = ["as_revolved", "profiles_like", "walls_like"]
@@ -43,6 +45,8 @@ def walls_like(wall: Wall, low: float, high: float) -> Iterator[Wall]:
                 yield replace(wall, profile=profile)
         if isinstance(wall.profile, SplineProfile):
             yield from _spheroids(wall.centre, z, r)
+    elif isinstance(wall, Ruled):
+        yield from turning(wall)
     elif isinstance(wall, Swept):
         yield from _moving_otherwise(wall)
         for outline in _outlines_like(wall.outline):

@@ -15,12 +15,16 @@ from sketchloft.wall.ruled import Ruled
 __all__ = ["square_to_round"]
 
 RING = 96
+FILLED = 0.7
+"""Share of the rectangle around it that such a section fills; a circle fills 0.785."""
 INSIDE = 0.02
 """Share of the height of an end's run by which the section is taken inside it."""
 
 
-def square_to_round(model: ExactModel, runs: range) -> tuple[Ruled, Ruled]:
+def square_to_round(model: ExactModel, runs: range) -> tuple[Ruled, ...]:
     """Walls between the sections at both ends of some runs of one wall, either taken for the round one.
+
+    None where one of them is neither round nor square.
 
     Parameters
     ----------
@@ -36,6 +40,8 @@ def square_to_round(model: ExactModel, runs: range) -> tuple[Ruled, Ruled]:
         )
         wall = model.stack.runs[j].walls[0]
         ends.append(_square_and_round(section_boundary(wall, height, RING).points[:, :2]))
+    if any(circle.area < FILLED * rectangle.area for rectangle, circle in ends):
+        return ()
     (low_square, low_round), (high_square, high_round) = ends
     low, high = float(model.stack.breaks[runs.start]), float(model.stack.breaks[runs.stop])
     return (

@@ -26,6 +26,7 @@ from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.outline import Arc, Outline
 from sketchloft.outline.placed_polygons import Rectangle
 from sketchloft.outline.polygons import LineArc, Polygon, corner_areas
+from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import SplineLoop
 from sketchloft.ring import ring_length
 from sketchloft.shapes.spline import resampled
@@ -53,7 +54,9 @@ one more for each further line, two for each arc."""
 LAST = 12.0
 """Log odds against splines, which are drawn for want of anything else."""
 LATTICE = 40
-POLES = (8, 12, 20)
+MANY = 7
+"""Corners of a polygon that may stand for a free curve."""
+POLES = (8, 12, 16, 20)
 WAVES = np.arange(2, 13)
 EVEN = 4.0
 """Power of a wave around a circle that chance exceeds once in exp(4) times."""
@@ -131,8 +134,7 @@ def _best(points: Floats, ring: Floats, blur: float, together: float, *, hole: b
         attempt(rectangle_of(ring))
         return _likeliest(tried)
     _attempt_corners(attempt, tried, ring, blur)
-    curved = isinstance(_likeliest(tried), (LineArc, SplineLoop))
-    for poles in POLES[1:] if curved else ():
+    for poles in POLES[1:] if _may_be_free(_likeliest(tried)) else ():
         attempt(spline_of(ring, poles))
     return _likeliest(tried)
 
@@ -152,6 +154,12 @@ def _attempt_corners(
         if simpler < value:
             break
         value, outline = tried[-1]
+
+
+def _may_be_free(outline: Outline) -> bool:
+    """Whether an outline is so rich that it may stand for a free curve."""
+    many = isinstance(outline, Polygon) and len(outline.vertices) >= MANY
+    return many or isinstance(outline, (LineArc, RoundedPolygon, SplineLoop))
 
 
 def _likeliest(tried: list[tuple[float, Outline]]) -> Outline:

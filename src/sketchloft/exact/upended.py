@@ -1,4 +1,4 @@
-"""Upended: a box stood on another of its faces, along edges that may be rounded."""
+"""Upended: a box stood on another of its faces, from where more of its edges may be rounded ones."""
 
 from __future__ import annotations
 
@@ -15,18 +15,22 @@ from sketchloft.exact.fit import fit_density
 from sketchloft.exact.likelihood import value_of
 from sketchloft.exact.model import ExactModel, model_of
 from sketchloft.exact.trial import worth
-from sketchloft.outline.placed_polygons import Rectangle
+from sketchloft.outline.candidates import rectangle_of
+from sketchloft.outline.placed_polygons import Rectangle, RoundedRectangle
 from sketchloft.stack import Run, Stack, Wall
 from sketchloft.wall.swept import Swept
 
 __all__ = ["upended"]
 
+AROUND = 96
+FILLED = 0.9
+"""Share of the rectangle around it that the section of a box fills, edges rounded or not."""
 HINT = 0.5
 """Log likelihood of independent points that fillets of a given size must gain for others to be tried."""
 
 
 def upended(points: Floats, model: ExactModel, together: float, *, lofts: bool) -> tuple[ExactModel, Floats]:
-    """Stand a box with sharp edges on another face where its edges from there are rounded.
+    """Stand a box on another face where fillets that are seen from there explain more.
 
     Returns
     -------
@@ -62,8 +66,11 @@ def _stood_otherwise(points: Floats, model: ExactModel) -> list[tuple[ExactModel
     wall = run.walls[0]
     if others or len(run.walls) > 1 or not isinstance(wall, Swept) or wall.free:
         return []
-    box = wall.outline
-    if not isinstance(box, Rectangle):
+    outline = wall.outline
+    if isinstance(outline, RoundedRectangle):
+        return []
+    box = outline if isinstance(outline, Rectangle) else rectangle_of(outline.boundary(AROUND).points)
+    if outline.area < FILLED * box.area:
         return []
     cos, sin = np.cos(box.angle), np.sin(box.angle)
     along, across, up = np.array([cos, sin, 0.0]), np.array([-sin, cos, 0.0]), np.array([0.0, 0.0, 1.0])
@@ -74,8 +81,8 @@ def _stood_otherwise(points: Floats, model: ExactModel) -> list[tuple[ExactModel
         rotation = np.column_stack(axes)
         x, y, z = (middle @ rotation).tolist()
         width, height, length = sizes[list(order)].tolist()
-        outline = Rectangle(np.array([x, y]), width, height, 0.0)
-        stack = Stack(np.array([z - length / 2, z + length / 2]), (Run((replace(wall, outline=outline),)),))
+        sharp = replace(wall, outline=Rectangle(np.array([x, y]), width, height, 0.0))
+        stack = Stack(np.array([z - length / 2, z + length / 2]), (Run((sharp,)),))
         count = len(points) / float(sizes.prod())
         density = np.zeros(len(model.density.coefficients))
         density[0] = np.log(count)

@@ -15,7 +15,7 @@ from sketchloft.exact.recognise_section import rarity
 from sketchloft.exact.section_radii import SectionRadii, piece_costs, section_radii
 from sketchloft.exact.simpler_walls import profiles_like, walls_like
 from sketchloft.exact.surgery import with_run, with_runs, with_split, without_run
-from sketchloft.exact.trial import Change, free_gain
+from sketchloft.exact.trial import FREE_GAIN, Change, free_gain
 from sketchloft.intervals import cheapest_chain
 from sketchloft.stack import Run, Wall, section_boundary
 from sketchloft.wall.profile import Profile, SplineProfile
@@ -108,7 +108,7 @@ def splits(points: Floats, model: ExactModel, together: float) -> Iterator[Chang
             walls = [replace(wall, profile=_closest(found, *pair)) for pair in pairwise(best)]
             heights = [float(found.heights[k - 1 : k + 1].mean()) for k in best[1:-1]]
             split = with_split(model, j, heights, walls)
-            handicap = -free_gain(len(walls)) if free else 0.0
+            handicap = -free_gain(len(walls), 0, len(points), together) if free else 0.0
             yield Change(split, range(j, j + len(walls)), handicap, free=free)
 
 
@@ -132,7 +132,7 @@ def swaps(model: ExactModel) -> Iterator[Change]:
                 nested = _extends(wall, other)
                 free = _is_free(wall)
                 changed = with_run(model, j, Run(walls, run.holes))
-                handicap = -free_gain(1) if free else max(_rarity(other) - _rarity(wall), 0.0)
+                handicap = -FREE_GAIN if free else max(_rarity(other) - _rarity(wall), 0.0)
                 yield Change(changed, range(j, j + 1), handicap, nested, free)
 
 

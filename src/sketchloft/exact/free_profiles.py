@@ -28,12 +28,13 @@ def splined(points: Floats, model: ExactModel, together: float, fewest: int = 1)
             if stop > start and not _continuous(model, stop):
                 break
             stop += 1
+        tangents = model.joins[start + 1 : stop].count("tangent")
         best: ExactModel | None = None
         for spans in SPANS if stop - start >= fewest else ():
             source, last = (model, stop) if best is None else (best, start + 1)
             wall = _spline_through(points, source, start, last, spans)
             change = with_runs(source, start, last - 1, Run((wall,)))
-            handicap = free_gain(stop - start) if best is None else 0.0
+            handicap = free_gain(stop - start, tangents, len(points), together) if best is None else 0.0
             better = tried(
                 points, source, Change(change, range(start, start + 1), handicap, free=True), together
             )

@@ -15,7 +15,7 @@ from sketchloft.exact.model import ExactModel
 from sketchloft.exact.schwarz import price
 from sketchloft.exact.soundness import detached
 
-__all__ = ["MOST_NOISE", "Change", "free_gain", "tried", "tried_free", "worth"]
+__all__ = ["FREE_GAIN", "MOST_NOISE", "Change", "free_gain", "tried", "tried_free", "worth"]
 
 BESIDE = 6.0
 """Noise deviations from the walls within which points decide."""
@@ -76,9 +76,28 @@ class Change:
         return kinds, self.runs, self.model.vector.tobytes(), self.model.stack.breaks.tobytes()
 
 
-def free_gain(walls: int) -> float:
-    """What a free profile must gain over so many lines and arcs."""
-    return FREE_GAIN if walls < 3 else CHAIN_GAIN
+def free_gain(walls: int, tangents: int, count: int, together: float) -> float:
+    """What a free profile must gain over lines and arcs.
+
+    Parameters
+    ----------
+    walls : int
+        How many lines and arcs.
+    tangents : int
+        How many of them run into the next.
+    count : int
+        Number of points.
+    together : float
+        How many of them go together.
+
+    Notes
+    -----
+    In the end the lines and arcs have one axis, and those that run into each other one radius (`coaxial`),
+    but as yet each is priced with its own. Among strokes, which drift, the curve that follows them is the
+    nearer one more often than not, so that there this does not count.
+    """
+    shared = 2 * (walls - 1) + tangents if together == 1 else 0
+    return (FREE_GAIN if walls < 3 else CHAIN_GAIN) + price(shared, count, together)
 
 
 def tried(points: Floats, model: ExactModel, change: Change, together: float) -> ExactModel | None:

@@ -414,3 +414,10 @@ def test_the_checks_notice_another_solid() -> None:
     with pytest.raises(ModelError, match="beside its walls at a height of"):
         check_stack(solid, turned)
     check_walls(LAMP)
+
+
+def test_what_others_would_read_as_no_valid_solid_is_refused() -> None:
+    thin = stack([0, 0.4, 0.8], cylinder(0.3, np.zeros(2)), cylinder(0.301, np.array([0.0015, 0.0])))
+    assert stack_solid(thin)
+    with pytest.raises(ModelError, match="who read it from STEP"):
+        built_stack(thin, np.array([0.1, 0.2, 0.3]), np.eye(3), 9.0)

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from sketchloft.brep.bounds import bounds_of
 from sketchloft.brep.check_stack import check_stack
+from sketchloft.brep.check_step import check_step
 from sketchloft.brep.facts import SolidFacts
 from sketchloft.brep.place import placed
 from sketchloft.brep.solid import Solid
@@ -55,6 +56,7 @@ def built_stack(stack: Stack, origin: Floats, axes: Floats, scale: float = 1.0) 
             f"solid: the CAD kernel could not make these walls ({type(error).__name__})"
         ) from error
     there = placed(solid, scale, origin, axes)
+    check_step(there)
     facts = replace(
         facts, volume=facts.volume * scale**3, area=facts.area * scale**2, bounds=bounds_of(there.shape)
     )

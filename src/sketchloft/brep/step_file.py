@@ -21,7 +21,7 @@ from sketchloft.brep.trial import tried
 from sketchloft.cloud import Unit
 from sketchloft.errors import InputError, OutputError
 
-__all__ = ["TIME_STAMP", "read", "write"]
+__all__ = ["TIME_STAMP", "parsed", "read", "write"]
 
 TIME_STAMP = "2000-01-01T00:00:00"
 """Time in the header: a fixed one, so that the same model gives the same bytes."""
@@ -75,10 +75,17 @@ def read(path: Path) -> Model:
         raise InputError("is not a STEP file: it does not start with ISO-10303-21")
     if _END not in data[-200:]:
         raise InputError(f"is cut short: a STEP file ends with {_END.decode()}; copy it again")
-    return tried(lambda: _model(data), seconds=20 + len(data) / 1e6)
+    return tried(lambda: parsed(data), seconds=20 + len(data) / 1e6)
 
 
-def _model(data: bytes) -> Model:
+def parsed(data: bytes) -> Model:
+    """Read the solids of the bytes of a whole STEP file.
+
+    Raises
+    ------
+    InputError
+        If the text is not STEP, or holds no solid.
+    """
     reader = STEPCAFControl_Reader()
     if reader.ReadStream("model", io.BytesIO(data)) != IFSelect_ReturnStatus.IFSelect_RetDone:
         raise InputError("is not valid STEP; export it again")

@@ -146,6 +146,20 @@ def test_remarks_go_to_standard_error_and_quiet_keeps_them(
     assert run("build", "twice.xyz", "-q", capsys=capsys)[2] == ""
 
 
+def test_settings_that_the_method_has_no_use_for_are_named(
+    here: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    np.savetxt(here / "cube.xyz", CUBE)
+    said = run("build", "cube.xyz", "--loft", "smooth", "--per-slice", "300", capsys=capsys)[2]
+    assert "slice planes, loft: what was set for this is for the paper's method" in said
+    assert "paper" not in run("build", "cube.xyz", capsys=capsys)[2]
+
+
+def test_a_folder_is_no_cloud(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    code, _, said = run("build", str(here), capsys=capsys)
+    assert (code, "is a folder, expected a file" in said) == (3, True)
+
+
 BAD_CLOUDS = {
     "empty.xyz": (b"", 3, "is empty"),
     "words.xyz": (b"hello world\n", 3, "neither a row of numbers nor a header"),

@@ -7,9 +7,12 @@ import itertools
 import numpy as np
 
 from sketchloft.exact.body import ExactBody
-from sketchloft.pipeline import BodyModel, Reconstruction
+from sketchloft.pipeline import BodyModel, Params, Reconstruction
 
 __all__ = ["remarks"]
+
+PAPER_ONLY = ("slice_planes", "work_points", "edge_points", "shapes", "loft")
+"""Parameters of `Params` that the exact method has no use for."""
 
 
 def remarks(result: Reconstruction) -> tuple[str, ...]:
@@ -40,7 +43,19 @@ def remarks(result: Reconstruction) -> tuple[str, ...]:
                 f"{prefix}the exact method gave up ({body.instead}), so the body was sliced and lofted"
             )
         found += [prefix + text for text in (*_left_out(body), *_all_hull(body, result), *_borrowed(body))]
-    return tuple(found)
+    return tuple(found + _unused(result))
+
+
+def _unused(result: Reconstruction) -> list[str]:
+    """Settings of stages that only the paper's method has, where no body went through them."""
+    if not all(isinstance(body, ExactBody) for body in result.bodies):
+        return []
+    given, usual = result.params, Params()
+    names = [name for name in PAPER_ONLY if getattr(given, name) != getattr(usual, name)]
+    if not names:
+        return []
+    stages = ", ".join(name.replace("_", " ") for name in names)
+    return [f"{stages}: what was set for this is for the paper's method; ask for that, or leave it out"]
 
 
 def _left_out(body: BodyModel) -> list[str]:

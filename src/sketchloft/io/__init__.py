@@ -77,6 +77,8 @@ def read_cloud(path: str | os.PathLike[str], *, unit: Unit = "mm", format: str |
     if unit not in UNITS:
         raise UsageError(f"there is no unit {unit!r}; choose one of {', '.join(UNITS)}")
     path = Path(path)
+    if path.is_dir():
+        raise InputError(f"{path}: is a folder, expected a file; name one of the clouds in it")
     chosen = format_of(path) if format is None else _named(format)
     try:
         _check_content(path, chosen, named=format is not None)

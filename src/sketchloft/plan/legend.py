@@ -28,6 +28,11 @@ LEGEND = """\
 #                        same fillet there) or "sharp", ends = "both", "bottom" or "top"
 #     ruled              bottom_vertices, bottom_bulges, top_vertices, top_bulges: the outlines at both ends
 #                        of the run, as many edges each, as those of a line-arc
+#     square to round    square_centre, width, depth, angle: the rectangle at the bottom of the run, as below;
+#                        round_centre, radius, first_cut, stagger: the circle at the top, cut in four where
+#                        lines lead to it from the corners, at first_cut + stagger, first_cut + 90 - stagger,
+#                        first_cut + 180 + stagger, first_cut + 270 - stagger
+#     round to square    the same, the circle at the bottom
 #     loft               knots: heights, from break to break of its run, poles: a ring of points for each
 #                        pole along the heights
 #     circle             centre, radius

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from sketchloft.cloud import Floats
+from sketchloft.outline.divided_circle import DividedCircle
 from sketchloft.outline.outline import Outline
 from sketchloft.outline.placed_polygons import Rectangle, RoundedRectangle
 from sketchloft.outline.polygons import chain_outline
@@ -149,6 +151,33 @@ def _ruled() -> Form:
     return Form(tuple(fields), read, make)
 
 
+def _square_and_round(*, up: bool) -> Form:
+    """A rectangle and a circle of four arcs, the circle above or below."""
+    square = form(Rectangle, replace(CENTRE, name="square_centre"), *SIDES[1:])
+    circle = form(
+        _four_arcs,
+        replace(CENTRE, name="round_centre"),
+        RADIUS,
+        Number("first_cut", "angle", "angle"),
+        Number("stagger", "stagger", "angle"),
+    )
+
+    def make(values: dict[str, Any]) -> Ruled:
+        ends = square.make(values), circle.make(values)
+        return Ruled(*(ends if up else ends[::-1]))
+
+    def read(wall: Ruled) -> dict[str, Any]:
+        below, above = (wall.bottom, wall.top) if up else (wall.top, wall.bottom)
+        return {**square.read(below), **circle.read(above)}
+
+    ends = (square.fields, circle.fields)
+    return Form(sum(ends if up else ends[::-1], ()), read, make)
+
+
+def _four_arcs(centre: Floats, radius: float, angle: float, stagger: float) -> DividedCircle:
+    return DividedCircle(centre, radius, angle, stagger, 4)
+
+
 def _filleted() -> Form:
     """A rectangle, its corners sharp or rounded as the edges of the ends are."""
     fields = (
@@ -193,6 +222,8 @@ FORMS: dict[str, Form] = {
     "spline revolve": _revolved(form(_spline, KNOTS, Number("radii", "radii", shape=(None,), least=4))),
     "filleted prism": _filleted(),
     "ruled": _ruled(),
+    "square to round": _square_and_round(up=True),
+    "round to square": _square_and_round(up=False),
     "loft": form(_loft, KNOTS, Number("poles", "poles", shape=(None, None, 2), fitted="across", least=4)),
     **{kind: _swept(outline) for kind, outline in OUTLINES.items()},
 }
@@ -201,4 +232,10 @@ FORMS: dict[str, Form] = {
 
 def kind_of(wall: Wall) -> str:
     """Key of `FORMS` for a wall."""
+    if isinstance(wall, Ruled):
+        ends = type(wall.bottom), type(wall.top)
+        return {
+            (Rectangle, DividedCircle): "square to round",
+            (DividedCircle, Rectangle): "round to square",
+        }.get(ends, wall.kind)
     return wall.outline.kind if isinstance(wall, Swept) else wall.kind

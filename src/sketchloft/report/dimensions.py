@@ -8,6 +8,7 @@ from typing import Literal
 import numpy as np
 
 from sketchloft.outline.circle import Circle
+from sketchloft.outline.divided_circle import DividedCircle
 from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.outline import Outline
 from sketchloft.outline.placed_polygons import Rectangle, RegularPolygon, RoundedRectangle
@@ -58,6 +59,10 @@ def dimensions(wall: Wall, low: float, high: float) -> tuple[Dimension, ...]:
         case Swept():
             size = float(wall.scale(np.array([low]))[0])
             return (*_outline(wall.outline, size, wall.twist * (low - wall.height)), *_moves(wall, low, high))
+        case Ruled(Rectangle() as one, DividedCircle() as other) | Ruled(
+            DividedCircle() as one, Rectangle() as other
+        ):
+            return (*_outline(one, 1.0, 0.0), *_outline(other, 1.0, 0.0))
         case Ruled():
             below, above = wall.area(np.array([low, high])).tolist()
             return (
@@ -120,7 +125,7 @@ def _outline(outline: Outline, size: float, turned: float) -> tuple[Dimension, .
         return Dimension("width", size * width), Dimension("depth", size * depth)
 
     match outline:
-        case Circle(_, radius):
+        case Circle(_, radius) | DividedCircle(_, radius):
             return (Dimension("radius", size * radius),)
         case Ellipse(_, major, minor, angle):
             semi_axes = (Dimension("semi-axes", size * major), Dimension("and", size * minor))

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from sketchloft.cloud import Floats
-from sketchloft.exact.density import Density
-from sketchloft.exact.inward_gap import without_gap
-from sketchloft.exact.model import ExactModel, model_of
-from sketchloft.exact.sharpen import least_noise, sharpened
+from sketchloft.exact.fit.inward_gap import without_gap
+from sketchloft.exact.fit.sharpen import least_noise, sharpened
+from sketchloft.exact.model.density import Density
+from sketchloft.exact.model.exact_model import ExactModel, model_of
 from sketchloft.outline.placed_polygons import Rectangle
 from sketchloft.outline.polygons import Polygon
 from sketchloft.stack import Run, Stack

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from sketchloft.exact.density import Density
-from sketchloft.exact.joins import crossing, joined, natural_joins
-from sketchloft.exact.model import ExactModel, model_of
+from sketchloft.exact.model.density import Density
+from sketchloft.exact.model.exact_model import ExactModel, model_of
+from sketchloft.exact.model.joins import crossing, joined, natural_joins
 from sketchloft.stack import Run, Stack
 from sketchloft.wall.profile import ArcProfile, LineProfile, Profile
 from sketchloft.wall.revolved import Revolved

@@ -9,11 +9,11 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from sketchloft.cloud import Floats
-from sketchloft.exact.density import Density
-from sketchloft.exact.expected import mass_nodes, wall_nodes
-from sketchloft.exact.likelihood import beside_walls, evaluate, share_of, value_of
-from sketchloft.exact.model import ExactModel, model_of
-from sketchloft.exact.soundness import sound
+from sketchloft.exact.fit.expected import mass_nodes, wall_nodes
+from sketchloft.exact.fit.likelihood import beside_walls, evaluate, share_of, value_of
+from sketchloft.exact.model.density import Density
+from sketchloft.exact.model.exact_model import ExactModel, model_of
+from sketchloft.exact.model.soundness import sound
 from sketchloft.outline.divided_circle import DividedCircle
 from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.outline import Outline

@@ -16,9 +16,9 @@ from hypothesis import strategies as st
 from sketchloft.cli import _exit_code
 from sketchloft.cloud import PointCloud
 from sketchloft.errors import InputError, OutputError, UsageError
-from sketchloft.exact.density import Density
-from sketchloft.exact.joins import joined
-from sketchloft.exact.model import ExactModel, model_of, tied
+from sketchloft.exact.model.density import Density
+from sketchloft.exact.model.exact_model import ExactModel, model_of, tied
+from sketchloft.exact.model.joins import joined
 from sketchloft.exact.planned import planned_body
 from sketchloft.frame import Frame
 from sketchloft.outline.circle import Circle

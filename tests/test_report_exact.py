@@ -22,9 +22,9 @@ from sketchloft.brep.build_stack import built_stack
 from sketchloft.cloud import Floats
 from sketchloft.direction import DirectionParams
 from sketchloft.exact.body import ExactBody
-from sketchloft.exact.density import Density
-from sketchloft.exact.direction import Candidate
-from sketchloft.exact.model import ExactModel, model_of
+from sketchloft.exact.model.density import Density
+from sketchloft.exact.model.exact_model import ExactModel, model_of
+from sketchloft.exact.start.direction import Candidate
 from sketchloft.outline.circle import Circle
 from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.outline import Outline

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from sketchloft.cloud import Floats
-from sketchloft.exact.section_contours import plan_view
-from sketchloft.exact.segments import SegmentsParams, segments
-from sketchloft.exact.twist import twist_of, untwisted
+from sketchloft.exact.section.section_contours import plan_view
+from sketchloft.exact.section.twist import twist_of, untwisted
+from sketchloft.exact.start.segments import SegmentsParams, segments
 from sketchloft.sample import GOALS, sample_goal
 
 N = 6000

@@ -11,13 +11,13 @@ from sketchloft import Params, PointCloud, reconstruct
 from sketchloft.cloud import Floats
 from sketchloft.direction import Axis, DirectionParams
 from sketchloft.exact.body import ExactBody
-from sketchloft.exact.density import Density
-from sketchloft.exact.flush import flush
-from sketchloft.exact.misfit import misfit
-from sketchloft.exact.model import ExactModel, model_of
-from sketchloft.exact.recognise_section import recognise_section
-from sketchloft.exact.soundness import detached, sound
-from sketchloft.exact.upright import upright
+from sketchloft.exact.changes.misfit import misfit
+from sketchloft.exact.model.density import Density
+from sketchloft.exact.model.exact_model import ExactModel, model_of
+from sketchloft.exact.model.soundness import detached, sound
+from sketchloft.exact.search.flush import flush
+from sketchloft.exact.search.upright import upright
+from sketchloft.exact.section.recognise_section import recognise_section
 from sketchloft.outline.circle import Circle
 from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.placed_polygons import Rectangle

@@ -1,9 +1,7 @@
-"""The exact method, in the order in which a body passes through it.
+"""The exact method.
 
-`body` is its orchestrator. robust_size, level_set, dispersion, inside_density: what the points say by
-themselves. direction, rule_likelihood: along which axis. segments, section_contours, twist,
-recognise_section, segment_walls, first_stack: the first walls, segment by segment. model, density, joins,
-soundness, expected, likelihood, fit: how well walls explain points, and how they move. evidence, trial,
-changes, simpler_walls, surgery, misfit, free_walls, loft_start, schwarz: which walls are worth having.
-upright, coaxial, tilt, sharpen, flush: the last fit. planned: the same from a plan.
+`body` is its orchestrator, `planned` the same from a plan. Imports run one way through the packages: `model`,
+what is fitted; `fit`, how likely the points are and the climb to where they are most likely; `section`, the
+outline and walls of one segment; `changes`, what a stack could be instead and whether that pays; `start`, the
+direction and the first stack; `search`, from there to the end.
 """

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 from sketchloft.cloud import Floats
 from sketchloft.direction import Axis
 from sketchloft.errors import ModelError
-from sketchloft.exact.choose_start import started
-from sketchloft.exact.direction import Candidate
-from sketchloft.exact.model import ExactModel
-from sketchloft.exact.search import searched
-from sketchloft.exact.segments import SegmentsParams
+from sketchloft.exact.model.exact_model import ExactModel
+from sketchloft.exact.search.search import searched
+from sketchloft.exact.start.choose_start import started
+from sketchloft.exact.start.direction import Candidate
+from sketchloft.exact.start.segments import SegmentsParams
 from sketchloft.frame import Frame
 from sketchloft.robust_size import middle_and_size
 from sketchloft.wall.lofted import Lofted

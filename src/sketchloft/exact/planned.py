@@ -12,15 +12,15 @@ from sketchloft.cloud import Floats, Unit
 from sketchloft.dispersion import clump, dispersion
 from sketchloft.errors import InputError
 from sketchloft.exact.body import ExactBody
-from sketchloft.exact.density import Density
-from sketchloft.exact.fit import climb, fit_density
-from sketchloft.exact.inside_density import inside_density
-from sketchloft.exact.inward_gap import without_gap
-from sketchloft.exact.level_set import level_set
-from sketchloft.exact.likelihood import beside_walls
-from sketchloft.exact.model import ExactModel
-from sketchloft.exact.sharpen import least_noise, sharpened
-from sketchloft.exact.start import BESIDE, ROOM
+from sketchloft.exact.fit.climb import climb, fit_density
+from sketchloft.exact.fit.inward_gap import without_gap
+from sketchloft.exact.fit.likelihood import beside_walls
+from sketchloft.exact.fit.sharpen import least_noise, sharpened
+from sketchloft.exact.model.density import Density
+from sketchloft.exact.model.exact_model import ExactModel
+from sketchloft.exact.section.level_set import level_set
+from sketchloft.exact.start.inside_density import inside_density
+from sketchloft.exact.start.start import BESIDE, ROOM
 from sketchloft.plan.from_model import planned_from_model
 from sketchloft.plan.plan import Plan, PlannedBody
 from sketchloft.plan.to_model import model_from_plan

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sketchloft.cloud import Floats
-from sketchloft.exact.joins import joined
-from sketchloft.exact.model import ExactModel
+from sketchloft.exact.model.exact_model import ExactModel
+from sketchloft.exact.model.joins import joined
 from sketchloft.frame import Frame
 from sketchloft.plan.plan import Numbers, PlannedBody, PlannedBreak, PlannedWall, Shared, Value
 from sketchloft.plan.ties import Place, shared_names

@@ -9,7 +9,7 @@ from typing import Literal, get_args
 import numpy as np
 
 from sketchloft.cloud import Floats, Unit
-from sketchloft.exact.model import Join
+from sketchloft.exact.model.exact_model import Join
 from sketchloft.frame import Frame
 
 __all__ = ["FITS", "Fit", "Numbers", "Plan", "PlannedBody", "PlannedBreak", "PlannedWall", "Shared", "Value"]

@@ -10,7 +10,7 @@ import numpy as np
 
 from sketchloft.cloud import UNITS
 from sketchloft.errors import InputError
-from sketchloft.exact.model import Join
+from sketchloft.exact.model.exact_model import Join
 from sketchloft.plan.numbers import numbers
 from sketchloft.plan.plan import FITS, Numbers, Plan, PlannedBody, PlannedBreak, PlannedWall
 from sketchloft.plan.read_walls import read_run

@@ -8,7 +8,7 @@ import numpy as np
 
 from sketchloft.cloud import Ints
 from sketchloft.errors import InputError
-from sketchloft.exact.model import ExactModel
+from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.plan.field import Number
 from sketchloft.plan.plan import PlannedBody, Shared
 from sketchloft.plan.walls import FORMS, kind_of

@@ -9,9 +9,9 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.errors import InputError
-from sketchloft.exact.density import Density
-from sketchloft.exact.joins import joined
-from sketchloft.exact.model import ExactModel, model_of, tied
+from sketchloft.exact.model.density import Density
+from sketchloft.exact.model.exact_model import ExactModel, model_of, tied
+from sketchloft.exact.model.joins import joined
 from sketchloft.plan.from_model import followed
 from sketchloft.plan.plan import PlannedBody, PlannedWall, Shared
 from sketchloft.plan.ties import tied_pairs

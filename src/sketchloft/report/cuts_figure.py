@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from sketchloft.cloud import Floats, Unit
 from sketchloft.exact.body import ExactBody
-from sketchloft.exact.model import ExactModel
+from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.pipeline import Reconstruction
 from sketchloft.report.axes_style import heading, style_axes
 from sketchloft.report.camera import FRONT

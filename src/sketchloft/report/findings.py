@@ -6,7 +6,7 @@ import numpy as np
 
 from sketchloft.cloud import Unit
 from sketchloft.exact.body import ExactBody
-from sketchloft.exact.expected import mass_nodes, wall_nodes
+from sketchloft.exact.fit.expected import mass_nodes, wall_nodes
 from sketchloft.report.precision import Precision
 from sketchloft.report.words import counted, number
 

@@ -9,7 +9,7 @@ import numpy as np
 from sketchloft.cloud import Floats
 from sketchloft.dispersion import dispersion
 from sketchloft.exact.body import ExactBody
-from sketchloft.exact.model import ExactModel
+from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.report.dimensions import dimensions
 from sketchloft.stack import Run
 

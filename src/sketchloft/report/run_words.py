@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from sketchloft.cloud import Unit
-from sketchloft.exact.model import ExactModel
+from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.report.dimensions import Dimension
 from sketchloft.report.pose import Pose
 from sketchloft.report.words import MINUS, TIMES, number

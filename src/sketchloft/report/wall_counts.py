@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.exact.model import ExactModel
+from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.report.distance_outside import distance_outside
 
 __all__ = ["expected_counts"]

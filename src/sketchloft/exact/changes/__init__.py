@@ -1,0 +1,1 @@
+"""Changes: what a stack could be instead, and whether it explains the points better than it costs."""

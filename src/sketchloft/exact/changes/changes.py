@@ -1,0 +1,151 @@
+"""Changes: what a stack could be instead, one run at a time."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+
+from sketchloft.cloud import Floats
+from sketchloft.exact.changes.section_radii import SectionRadii, piece_costs, section_radii
+from sketchloft.exact.changes.simpler_walls import profiles_like, walls_like
+from sketchloft.exact.changes.trial import FREE_GAIN, Change, free_gain
+from sketchloft.exact.model.exact_model import ExactModel
+from sketchloft.exact.model.joins import sole_profile
+from sketchloft.exact.model.surgery import with_run, with_runs, with_split, without_run
+from sketchloft.exact.section.recognise_section import rarity
+from sketchloft.intervals import cheapest_chain
+from sketchloft.stack import Run, Wall, section_boundary
+from sketchloft.wall.profile import Profile, SplineProfile
+from sketchloft.wall.revolved import Revolved, radius_at, sizes
+from sketchloft.wall.swept import Freedom, Swept
+
+__all__ = ["merges", "splits", "swaps"]
+
+PIECE = 8.0
+"""What a piece of a profile must gain for there to be more than three, in squared deviations."""
+MOST_PIECES = 6
+SHORTEST = 4
+"""Radii that each part has at least."""
+TINY = 1e-12
+
+
+def merges(model: ExactModel) -> Iterator[Change]:
+    """A run left to a neighbour, or at an end to nobody, the shortest first."""
+    runs = model.stack.runs
+    count = len(runs)
+    if count == 1:
+        return
+    order = np.argsort(np.diff(model.stack.breaks))
+    for j in (int(k) for k in order):
+        for heir in (j - 1, j + 1):
+            if 0 <= heir < count:
+                first = min(j, heir)
+                yield Change(without_run(model, j, heir), range(first, first + 1))
+                slanted = _slanted(model, heir, j)
+                if slanted is not None:
+                    yield Change(with_runs(model, first, first + 1, slanted), range(first, first + 1))
+        if j in (0, count - 1):
+            place = 0 if j == 0 else count - 2
+            yield Change(without_run(model, j, None), range(place, place + 1))
+
+
+def _slanted(model: ExactModel, heir: int, other: int) -> Run | None:
+    """The run of the heir, moving and growing so that it leads into the other; None if it cannot."""
+    walls, breaks = model.stack.runs[heir].walls, model.stack.breaks
+    others = model.stack.runs[other].walls
+    if len(walls) != len(others):
+        return None
+    here, there = ((breaks[k] + breaks[k + 1]) / 2 for k in (heir, other))
+    slanted: list[Wall] = []
+    for wall, beyond in zip(walls, others, strict=True):
+        if not isinstance(wall, Swept):
+            return None
+        free: tuple[Freedom, ...] = (
+            ("drift", "taper", "twist") if "twist" in wall.free else ("drift", "taper")
+        )
+        if wall.free:
+            slanted.append(replace(wall, free=free))
+            continue
+        start, end = (section_boundary(w, z, 48).centre for w, z in ((wall, here), (beyond, there)))
+        areas = [max(float(w.area(np.array([z]))[0]), TINY) for w, z in ((wall, here), (beyond, there))]
+        growth = np.sqrt(areas[1] / areas[0]) - 1
+        drift, taper = (end - start) / (there - here), float(growth) / (there - here)
+        slanted.append(replace(wall, pivot=start, drift=drift, taper=taper, height=here, free=free))
+    return Run(tuple(slanted), model.stack.runs[heir].holes)
+
+
+def splits(points: Floats, model: ExactModel, together: float) -> Iterator[Change]:
+    """Runs of lines or arcs, many, three or two, for a revolved one, cut where they fit the points best.
+
+    Parameters
+    ----------
+    points : (n, 3) float array
+    model : ExactModel
+    together : float
+        How many of the points go together.
+    """
+    for j, (run, low, high) in enumerate(model.stack.slabs()):
+        wall = sole_profile(run)
+        found = None if wall is None else section_radii(points, wall, (low, high), together)
+        if wall is None or found is None:
+            continue
+        free = _is_free(wall)
+        cost = piece_costs(found, SHORTEST)
+        last = len(found.heights)
+        inner = range(SHORTEST, last - SHORTEST + 1)
+        many = tuple(cheapest_chain(cost + PIECE)[0])
+        for cuts in (
+            [many] if 4 <= len(many) - 1 <= MOST_PIECES else [],
+            [(0, k, m, last) for k in inner for m in inner if m >= k + SHORTEST],
+            [(0, k, last) for k in inner],
+        ):
+            if not cuts:
+                continue
+            best = min(cuts, key=lambda cut: sum(cost[pair] for pair in pairwise(cut)))
+            walls = [replace(wall, profile=_closest(found, *pair)) for pair in pairwise(best)]
+            heights = [float(found.heights[k - 1 : k + 1].mean()) for k in best[1:-1]]
+            split = with_split(model, j, heights, walls)
+            handicap = -free_gain(len(walls), 0, len(points), together) if free else 0.0
+            yield Change(split, range(j, j + len(walls)), handicap, free=free)
+
+
+def _closest(found: SectionRadii, start: int, stop: int) -> Profile:
+    """The line or arc that costs least in the place of some radii (Akaike's criterion)."""
+    part = slice(start, stop)
+    z, r, deviation = found.heights[part], found.radii[part], found.deviations[part]
+
+    def cost(profile: Profile) -> float:
+        return float((((radius_at(profile, z)[0] - r) / deviation) ** 2).sum()) + 2 * sizes(profile)
+
+    return min(profiles_like(z, r), key=cost)
+
+
+def swaps(model: ExactModel) -> Iterator[Change]:
+    """A wall of another kind in the place of each."""
+    for j, (run, low, high) in enumerate(model.stack.slabs()):
+        for i, wall in enumerate(run.walls):
+            for other in walls_like(wall, low, high):
+                walls = (*run.walls[:i], other, *run.walls[i + 1 :])
+                nested = _extends(wall, other)
+                free = _is_free(wall)
+                changed = with_run(model, j, Run(walls, run.holes))
+                handicap = -FREE_GAIN if free else max(_rarity(other) - _rarity(wall), 0.0)
+                yield Change(changed, range(j, j + 1), handicap, nested, free)
+
+
+def _rarity(wall: Wall) -> float:
+    return rarity(wall.outline) if isinstance(wall, Swept) else 0.0
+
+
+def _is_free(wall: Wall) -> bool:
+    return isinstance(wall, Revolved) and isinstance(wall.profile, SplineProfile)
+
+
+def _extends(wall: Wall, other: Wall) -> bool:
+    """Whether the other is the wall itself with more freedom to move."""
+    if not isinstance(wall, Swept) or not isinstance(other, Swept):
+        return False
+    return other.outline is wall.outline and len(other.free) > len(wall.free)

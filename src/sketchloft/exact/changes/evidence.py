@@ -1,0 +1,110 @@
+"""Evidence: the stack is changed as long as a change explains the points better than it costs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+from sketchloft.cloud import Floats
+from sketchloft.exact.changes.changes import merges, splits, swaps
+from sketchloft.exact.changes.filleted_walls import filleted
+from sketchloft.exact.changes.free_profiles import splined
+from sketchloft.exact.changes.free_walls import lofted, ruled
+from sketchloft.exact.changes.trial import Change, tried, worth
+from sketchloft.exact.model.exact_model import ExactModel
+
+__all__ = ["improved", "merged"]
+
+CHAIN = 3
+"""Runs that merging may hide from a free profile in their place."""
+ROUNDS = 2
+"""How often all changes are looked through at most."""
+
+Changes = Callable[[ExactModel], Iterator[Change]]
+
+
+def improved(points: Floats, model: ExactModel, together: float, *, lofts: bool = True) -> ExactModel:
+    """Change runs, one at a time, as long as it pays.
+
+    Parameters
+    ----------
+    points : (n, 3) float array
+    model : ExactModel
+        Fitted.
+    together : float
+        How many of the points go together.
+    lofts : bool
+        Whether free lofts are tried.
+
+    Notes
+    -----
+    A change that pays may bar the way to a better one: what is merged first is no chain that a free profile
+    could stand in for. So both ways are gone where there is one, and the better end is taken.
+    """
+    found = _changed(points, model, together, lofts=lofts)
+    if len(found.stack.runs) == 1:
+        return found
+    smooth = splined(points, model, together, CHAIN)
+    if smooth is model:
+        return found
+    other = _changed(points, smooth, together, lofts=lofts)
+    return max(found, other, key=lambda end: worth(points, end, together, len(points)))
+
+
+def merged(points: Floats, model: ExactModel, together: float) -> ExactModel:
+    """Leave runs to their neighbours, one at a time, as long as it pays.
+
+    Parameters
+    ----------
+    points : (n, 3) float array
+    model : ExactModel
+        Fitted.
+    together : float
+        How many of the points go together.
+    """
+    return _through(points, model, together, merges, set(), again=True)
+
+
+def _changed(points: Floats, model: ExactModel, together: float, *, lofts: bool) -> ExactModel:
+    """Look through all kinds of changes as long as one pays."""
+    failed: set[tuple[object, ...]] = set()
+    free: ExactModel | None = None
+    for _ in range(ROUNDS):
+        before = model
+        model = _through(points, model, together, merges, failed, again=True)
+        model = splined(points, model, together)
+        model = _through(points, model, together, lambda m: splits(points, m, together), failed)
+        model = _through(points, model, together, swaps, failed)
+        if lofts and model is not free:
+            model = filleted(points, model, together)
+            model = free = lofted(points, ruled(points, model, together), together)
+        if model is before:
+            break
+    return model
+
+
+def _through(
+    points: Floats,
+    model: ExactModel,
+    together: float,
+    changes: Changes,
+    failed: set[tuple[object, ...]],
+    *,
+    again: bool = False,
+) -> ExactModel:
+    """Look through a kind of changes but those that failed from the same start; keep those that fail now.
+
+    After one that pays go on in its place, or `again` from the start.
+    """
+    place = 0
+    while True:
+        for k, change in enumerate(changes(model)):
+            if k < place or change.key in failed:
+                continue
+            better = tried(points, model, change, together)
+            if better is not None:
+                model, place = better, 0 if again else k
+                break
+            failed.add(change.key)
+            place = k + 1
+        else:
+            return model

@@ -1,0 +1,74 @@
+"""Free profiles: one spline for a chain of revolved runs, where it explains the points better."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from sketchloft.cloud import Floats
+from sketchloft.exact.changes.profile_start import profile_start
+from sketchloft.exact.changes.trial import Change, free_gain, tried
+from sketchloft.exact.model.exact_model import ExactModel
+from sketchloft.exact.model.joins import sole_profile
+from sketchloft.exact.model.surgery import with_runs
+from sketchloft.stack import Run
+from sketchloft.wall.revolved import Revolved, radius_at
+
+__all__ = ["splined"]
+
+SPANS = (4, 7, 11)
+"""Knot spans that are tried."""
+
+
+def splined(points: Floats, model: ExactModel, together: float, fewest: int = 1) -> ExactModel:
+    """One free profile for a chain of so many revolved runs or more, with as many spans as pay."""
+    start = 0
+    while start < len(model.stack.runs):
+        stop = start
+        while stop < len(model.stack.runs) and sole_profile(model.stack.runs[stop]) is not None:
+            if stop > start and not _continuous(model, stop):
+                break
+            stop += 1
+        tangents = model.joins[start + 1 : stop].count("tangent")
+        best: ExactModel | None = None
+        for spans in SPANS if stop - start >= fewest else ():
+            source, last = (model, stop) if best is None else (best, start + 1)
+            wall = _spline_through(points, source, start, last, spans)
+            change = with_runs(source, start, last - 1, Run((wall,)))
+            handicap = free_gain(stop - start, tangents, len(points), together) if best is None else 0.0
+            better = tried(
+                points, source, Change(change, range(start, start + 1), handicap, free=True), together
+            )
+            if better is None and (best is not None or stop - start == 1):
+                break
+            best = better or best
+        model = best or model
+        start = start + 1 if best is not None else max(stop, start + 1)
+    return model
+
+
+def _continuous(model: ExactModel, k: int) -> bool:
+    first, second = sole_profile(model.stack.runs[k - 1]), sole_profile(model.stack.runs[k])
+    if first is None or second is None:
+        return False
+    at = np.array([model.stack.breaks[k]])
+    gap = abs(float(radius_at(first.profile, at)[0][0] - radius_at(second.profile, at)[0][0]))
+    return gap < max(10 * model.sigma, 0.03)
+
+
+def _spline_through(points: Floats, model: ExactModel, start: int, stop: int, spans: int) -> Revolved:
+    """Free profile that the points beside those of a chain of runs have."""
+    breaks = model.stack.breaks
+    heights, radii, centres = [], [], []
+    for j in range(start, stop):
+        wall = sole_profile(model.stack.runs[j])
+        if wall is None:
+            continue
+        length = float(breaks[j + 1] - breaks[j])
+        z = breaks[j] + length * (np.arange(12) + 0.5) / 12
+        heights.append(z)
+        radii.append(radius_at(wall.profile, z)[0])
+        centres.append(length * wall.centre)
+    low, high = float(breaks[start]), float(breaks[stop])
+    centre = np.sum(centres, axis=0) / (high - low)
+    near = np.concatenate(heights), np.concatenate(radii)
+    return profile_start(points, centre, near, (low, high), spans)

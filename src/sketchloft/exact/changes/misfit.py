@@ -1,0 +1,86 @@
+"""Misfit: how far a run's walls are from where the points end, patch by patch, as a likelihood."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from sketchloft.cloud import Floats, Ints
+from sketchloft.exact.model.exact_model import ExactModel
+from sketchloft.stack import THIN, Wall, section_boundary
+
+__all__ = ["misfit"]
+
+AROUND = 16
+ALONG = 8
+NODES = 600
+BANDS = (2.0, 4.0, 8.0, 16.0)
+"""Half the widths of the bands that are counted, in noise deviations."""
+WIDEST = 0.1
+"""Half the width of a band at most, as a share of the size of the section."""
+FEWEST = 0.5
+"""Points that a patch expects at least."""
+
+
+def misfit(points: Floats, model: ExactModel, runs: range, together: float) -> float:
+    """Log likelihood that free walls would gain at least in the place of the walls of some runs, about.
+
+    Parameters
+    ----------
+    points : (n, 3) float array
+    model : ExactModel
+    runs : range
+    together : float
+        How many of the points go together.
+
+    Notes
+    -----
+    Of a band around the right wall one half is filled, whatever the noise. The squared lack or excess of
+    points in each patch of the band, over its expectation, is a chi square; the band that shows most counts.
+    """
+    breaks = model.stack.breaks
+    total = np.zeros(len(BANDS))
+    for j in runs:
+        low, high = float(breaks[j]), float(breaks[j + 1])
+        inner = points[(points[:, 2] > low) & (points[:, 2] < high)]
+        for wall in model.stack.runs[j].walls:
+            patches = _patches(wall, low, high)
+            per_width = np.zeros(AROUND * ALONG)
+            for bottom, top in pairwise(np.linspace(low, high, ALONG + 1).tolist()):
+                nodes = wall.boundary(bottom, top, NODES)
+                points_there = model.density.at(nodes.points) * nodes.areas
+                per_width += np.bincount(patches.of(nodes.points), points_there, AROUND * ALONG)
+            size = float(np.sqrt(np.abs(wall.area(np.linspace(low, high, 5))).min()))
+            widths = np.minimum(np.array(BANDS) * model.sigma, WIDEST * size)
+            away = np.abs(wall.foot(inner).distance)
+            patch = patches.of(inner)
+            for k, width in enumerate(widths):
+                found = np.bincount(patch[away < width], minlength=AROUND * ALONG)
+                expected = np.maximum(per_width * width, FEWEST)
+                total[k] += float(((found - expected) ** 2 / expected - together).sum()) / 2
+    return float(total.max()) / together
+
+
+@dataclass(frozen=True)
+class _Patches:
+    """Patches of a wall between two heights, about the line between its middles at both."""
+
+    low: float
+    high: float
+    first: Floats
+    last: Floats
+
+    def of(self, points: Floats) -> Ints:
+        """Which patch (n,) points (n, 3) belong to: by height, and by the angle about the middle."""
+        share = np.clip((points[:, 2] - self.low) / (self.high - self.low), 0, 1 - 1e-9)
+        spoke = points[:, :2] - self.first - share[:, None] * (self.last - self.first)
+        turn = np.arctan2(spoke[:, 1], spoke[:, 0]) / (2 * np.pi) % 1.0
+        around = np.minimum((turn * AROUND).astype(np.intp), AROUND - 1)
+        return (share * ALONG).astype(np.intp) * AROUND + around
+
+
+def _patches(wall: Wall, low: float, high: float) -> _Patches:
+    ends = (section_boundary(wall, z, 64).centre for z in (low + THIN, high - THIN))
+    return _Patches(low, high, *ends)

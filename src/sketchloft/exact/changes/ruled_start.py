@@ -1,0 +1,110 @@
+"""Ruled start: a wall between what the sections near both ends of a stretch are taken for."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+
+from sketchloft.cloud import Floats
+from sketchloft.exact.section.recognise_section import recognise_section
+from sketchloft.outline.chain import chords, outward
+from sketchloft.outline.chain_outline import ChainOutline
+from sketchloft.outline.outline import Outline
+from sketchloft.outline.placed_polygons import RoundedRectangle
+from sketchloft.outline.polygons import chain_outline
+from sketchloft.outline.rounded_polygon import RoundedPolygon
+from sketchloft.wall.ruled import Ruled
+
+__all__ = ["ruled_start"]
+
+SLAB = 0.12
+"""Share of the stretch at either end whose points show the outline there."""
+FEWEST = 150
+"""Points that such a slab needs."""
+MOST_POINTS = 1200
+RING = 720
+MOST_EDGES = 12
+ROUND = (RoundedPolygon, RoundedRectangle)
+"""Outlines with corners that are none."""
+
+
+def ruled_start(points: Floats, ends: tuple[float, float], together: float) -> Ruled | None:
+    """Wall from one outline to another, where one at least has corners.
+
+    Parameters
+    ----------
+    points : (n, 3) float array
+    ends : (low, high)
+        Heights.
+    together : float
+        How many of the points go together.
+
+    Returns
+    -------
+    Ruled
+        None where a section is not one piece, or neither has corners, or both are too rich in them.
+    """
+    low, high = ends
+    outlines: list[Outline] = []
+    for bottom, top in ((low, low + SLAB * (high - low)), (high - SLAB * (high - low), high)):
+        slab = points[(points[:, 2] > bottom) & (points[:, 2] < top)]
+        slab = slab[:: len(slab) // MOST_POINTS + 1]
+        shape = recognise_section(slab[:, :2], together) if len(slab) >= FEWEST else None
+        if shape is None or shape.holes or len(shape.outlines) != 1:
+            return None
+        outlines.append(shape.outlines[0])
+    chains = _matched(*outlines)
+    if chains is None:
+        return None
+    # What was found is the section in the middle of each slab.
+    share = SLAB / 2 / (1 - SLAB)
+    (first, first_bulges), (last, last_bulges) = chains
+    rise = last - first
+    below = chain_outline(first - share * rise, first_bulges)
+    return Ruled(below, chain_outline(last + share * rise, last_bulges), low, high)
+
+
+def _matched(below: Outline, above: Outline) -> tuple[tuple[Floats, Floats], tuple[Floats, Floats]] | None:
+    """Vertices and bulges of two outlines, edge to edge."""
+    first, last = (
+        outline.chain() if isinstance(outline, ChainOutline) and not isinstance(outline, ROUND) else None
+        for outline in (below, above)
+    )
+    if first is not None and last is not None and len(first[1]) != len(last[1]):
+        first, last = (first, None) if len(first[1]) < len(last[1]) else (None, last)
+    if first is None:
+        if last is None:
+            return None
+        first = _arcs(below, last[0])
+    elif last is None:
+        last = _arcs(above, first[0])
+    else:
+        last = _turned(first, last)
+    if not 3 <= len(first[1]) <= MOST_EDGES:
+        return None
+    return first, last
+
+
+def _arcs(outline: Outline, corners: Floats) -> tuple[Floats, Floats]:
+    """An outline as one arc for each direction between corners (m, 2)."""
+    ring = outline.boundary(RING).points
+    centre = ring.mean(axis=0)
+    around = np.unwrap(np.angle((ring - centre) @ [1, 1j]))
+    angles = np.angle((corners - corners.mean(axis=0)) @ [1, 1j])
+    found = [int(np.argmin(np.abs(np.angle(np.exp(1j * (around - angle)))))) for angle in angles]
+    vertices = ring[found]
+    closed = [*found, found[0]]
+    middles = [ring[(a + (b - a) % len(ring) // 2) % len(ring)] for a, b in pairwise(closed)]
+    chord = chords(vertices)
+    square = np.maximum((chord**2).sum(axis=1), 1e-12)
+    rise = np.einsum("ij,ij->i", np.array(middles) - vertices - chord / 2, outward(chord))
+    return vertices, np.clip(2 * rise / square, -0.9, 0.9)
+
+
+def _turned(first: tuple[Floats, Floats], last: tuple[Floats, Floats]) -> tuple[Floats, Floats]:
+    """The last chain, begun where it lies closest to the first."""
+    spokes = [chain[0] - chain[0].mean(axis=0) for chain in (first, last)]
+    gaps = [float(np.linalg.norm(spokes[0] - np.roll(spokes[1], -k, axis=0))) for k in range(len(first[1]))]
+    k = int(np.argmin(gaps))
+    return np.roll(last[0], -k, axis=0), np.roll(last[1], -k)

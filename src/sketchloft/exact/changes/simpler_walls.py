@@ -1,0 +1,145 @@
+"""Simpler walls: what a wall could be instead, with fewer parameters or of a likelier kind."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from sketchloft.cloud import Floats
+from sketchloft.exact.changes.turning import turning
+from sketchloft.outline.candidates import circle_of, ellipse_of, polygons, spline_of
+from sketchloft.outline.circle import Circle
+from sketchloft.outline.ellipse import Ellipse
+from sketchloft.outline.outline import Outline
+from sketchloft.outline.placed_polygons import Rectangle, RegularPolygon, RoundedRectangle
+from sketchloft.outline.polygons import LineArc, Polygon, corner_areas
+from sketchloft.outline.rounded_polygon import RoundedPolygon
+from sketchloft.outline.spline_loop import SplineLoop
+from sketchloft.stack import Wall
+from sketchloft.wall.dome import taper_and_bow
+from sketchloft.wall.profile import ArcProfile, LineProfile, Profile, SplineProfile
+from sketchloft.wall.revolved import Revolved, radius_at
+from sketchloft.wall.ruled import Ruled
+from sketchloft.wall.swept import Freedom, Swept
+
+__all__ = ["as_revolved", "profiles_like", "walls_like"]
+
+HEIGHTS = 25
+TINY = 1e-12
+ROUNDED = 0.12
+"""Radius of the corners that a rectangle is tried with, in its short side."""
+MOST_POLES = 20
+"""Poles of a section from which on it is given no more."""
+MORE: tuple[Freedom, ...] = ("drift", "taper")
+
+
+def walls_like(wall: Wall, low: float, high: float) -> Iterator[Wall]:
+    """Walls that could stand in for one between two heights."""
+    if isinstance(wall, Revolved):
+        z = np.linspace(low, high, HEIGHTS)
+        r = radius_at(wall.profile, z)[0]
+        for profile in profiles_like(z, r):
+            if type(profile) is not type(wall.profile) or _form(profile) != _form(wall.profile):
+                yield replace(wall, profile=profile)
+        if isinstance(wall.profile, SplineProfile):
+            yield from _spheroids(wall.centre, z, r)
+    elif isinstance(wall, Ruled):
+        yield from turning(wall)
+    elif isinstance(wall, Swept):
+        yield from _moving_otherwise(wall)
+        for outline in _outlines_like(wall.outline):
+            yield replace(wall, outline=outline)
+        if isinstance(wall.outline, Circle) and not np.any(wall.drift):
+            z = np.linspace(low, high, HEIGHTS)
+            for profile in profiles_like(z, wall.outline.radius * wall.scale(z)):
+                yield Revolved(wall.outline.centre, profile)
+
+
+def as_revolved(wall: Swept) -> Wall:
+    """The cylinder or cone that a circle is which goes straight up; any other wall as it is."""
+    moves = wall.twist or wall.bows or np.any(wall.drift) or "drift" in wall.free
+    if not isinstance(wall.outline, Circle) or moves or (wall.taper and not wall.free):
+        return wall
+    slope = wall.outline.radius * wall.taper if wall.free else None
+    return Revolved(wall.outline.centre, LineProfile(wall.height, wall.outline.radius, slope))
+
+
+def _spheroids(centre: Floats, z: Floats, r: Floats) -> Iterator[Swept]:
+    """Spheroid, about an axis at a centre, nearest to radii (m,) at heights (m,)."""
+    height = float(z.mean())
+    second, first, square = np.polyfit(z - height, r**2, 2) if (r > 0).all() else np.zeros(3)
+    taper, bow = taper_and_bow(*(float(term) / max(float(square), TINY) for term in (first, second)))
+    if square > 0 and bow > abs(taper):
+        circle = Circle(centre, float(np.sqrt(square)))
+        yield Swept(circle, height, centre, np.zeros(2), taper, 0.0, ("taper", "bow"), bow)
+
+
+def _moving_otherwise(wall: Swept) -> Iterator[Swept]:
+    """The wall with a movement less, and with one more."""
+    for name in wall.free:
+        still: Floats | float = np.zeros(2) if name == "drift" else 0.0
+        free = tuple(other for other in wall.free if other != name)
+        yield replace(wall, free=free, **{name: still})  # type: ignore[arg-type]
+    for more in MORE:
+        if more not in wall.free:
+            yield replace(wall, free=(*wall.free, more))
+
+
+def profiles_like(z: Floats, r: Floats) -> Iterator[Profile]:
+    """Cylinder, cone and sphere nearest to a profile given by radii (m,) at heights (m,)."""
+    middle = float(z.mean())
+    yield LineProfile(middle, float(np.sqrt((r**2).mean())), None)
+    slope, radius = np.polyfit(z - middle, r, 1)
+    yield LineProfile(middle, float(radius), float(slope))
+    first, constant = np.polyfit(z, r**2 + z**2, 1)
+    square = float(constant + first**2 / 4)
+    if square > 0:
+        yield ArcProfile(float(first) / 2, None, float(np.sqrt(square)))
+
+
+def _form(profile: Profile) -> tuple[bool, bool]:
+    straight = isinstance(profile, LineProfile) and profile.slope is None
+    return straight, isinstance(profile, ArcProfile) and profile.offset is None
+
+
+def _outlines_like(outline: Outline) -> Iterator[Outline]:
+    ring = outline.boundary(96).points
+    if isinstance(outline, (Ellipse, LineArc, SplineLoop, RegularPolygon, RoundedRectangle)):
+        yield circle_of(ring)
+    if isinstance(outline, (LineArc, SplineLoop)):
+        yield ellipse_of(ring)
+    if isinstance(outline, SplineLoop) and len(outline.poles) < MOST_POLES:
+        yield spline_of(ring, 3 * len(outline.poles) // 2)
+    if isinstance(outline, RoundedRectangle):
+        yield Rectangle(outline.centre, outline.width, outline.height, outline.angle)
+    if isinstance(outline, Rectangle):
+        sides = (outline.width, outline.height)
+        yield RoundedRectangle(outline.centre, *sides, outline.angle, ROUNDED * min(sides))
+    if isinstance(outline, RoundedPolygon):
+        yield Polygon(outline.vertices)
+    yield from _with_fewer_corners(outline)
+    if not isinstance(outline, (Rectangle, Circle)):
+        vertices = outline.vertices if isinstance(outline, (Polygon, RoundedPolygon)) else None
+        polygon = None if vertices is None else Polygon(vertices)
+        for other in polygons(ring, polygon, float(np.sqrt(outline.area)) * 0.05):
+            if type(other) is not type(outline):
+                yield other
+
+
+def _with_fewer_corners(outline: Outline) -> Iterator[Outline]:
+    if isinstance(outline, Polygon) and len(outline.vertices) > 3:
+        for k in _flattest(outline.vertices):
+            yield Polygon(np.delete(outline.vertices, k, axis=0))
+    if isinstance(outline, LineArc) and len(outline.vertices) > 2:
+        for k in _flattest(outline.vertices):
+            curved, bulges = np.delete(outline.curved, k), np.delete(outline.bulges, k)
+            if curved.any():
+                yield LineArc(np.delete(outline.vertices, k, axis=0), bulges, curved)
+        yield Polygon(outline.vertices)
+
+
+def _flattest(vertices: Floats) -> list[int]:
+    """The corners whose triangles with their neighbours are smallest, three at most."""
+    return [int(k) for k in np.argsort(corner_areas(vertices))[:3]]

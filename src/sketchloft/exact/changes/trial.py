@@ -1,0 +1,209 @@
+"""Trial: whether a change of the stack explains the points better than it costs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sketchloft.cloud import Floats
+from sketchloft.exact.fit.climb import climb, fit_density, promise
+from sketchloft.exact.fit.likelihood import beside_walls, value_of
+from sketchloft.exact.fit.schwarz import price
+from sketchloft.exact.model.exact_model import ExactModel
+from sketchloft.exact.model.joins import natural_joins
+from sketchloft.exact.model.soundness import detached
+
+__all__ = ["FREE_GAIN", "MOST_NOISE", "Change", "free_gain", "tried", "tried_free", "worth"]
+
+BESIDE = 6.0
+"""Noise deviations from the walls within which points decide."""
+STEPS = (2, 4)
+SETTLED = 12
+"""Steps after which the noise of a model is the one that suits it."""
+ENOUGH = 0.05
+"""Log likelihood of independent points that a step gains for there to be another."""
+HOPELESS = 40.0
+"""A change that is still so much worse after the first few steps is given up."""
+HOPE = 2.0
+"""How much more than the slopes promise a change may gain: they hold for small movements."""
+PATIENCE = 400.0
+"""`HOPELESS` for a free wall, which starts from contours and has far to go."""
+SHARP = 0.006
+"""Noise that a free wall starts with at most."""
+MOST_NOISE = 0.012
+"""Largest noise that is believed, as a share of the size; more is a wall in the wrong place."""
+FREE_GAIN = 20.0
+"""What a free profile must gain over lines and arcs."""
+CHAIN_GAIN = 6.0
+"""The same over three of them or more: a designer draws so many rarely where one curve would do."""
+SHORT = 8.0
+"""Runs shorter than so many noise deviations are taken for noise unless they gain a lot."""
+DETACHED = 300.0
+"""What a wall must gain that does not reach the run beside it."""
+SHORTNESS = 12.0
+"""What a run of no length at all must gain."""
+
+
+@dataclass(frozen=True)
+class Change:
+    """A changed model, not fitted yet.
+
+    Parameters
+    ----------
+    model : ExactModel
+    runs : range
+        The runs of it that are new.
+    handicap : float
+        What it must gain beside its price.
+    nested : bool
+        Whether the model before it is a special case of it, which it starts from.
+    free : bool
+        Whether it puts a free wall in, takes one out or starts from a section found anew, so that its walls
+        have far to go and `tried_free` judges it.
+    """
+
+    model: ExactModel
+    runs: range
+    handicap: float = 0.0
+    nested: bool = False
+    free: bool = False
+
+    @property
+    def key(self) -> tuple[object, ...]:
+        """The same for changes that start from the same numbers."""
+        kinds = tuple(wall.kind for run in self.model.stack.runs for wall in run.walls)
+        return kinds, self.runs, self.model.vector.tobytes(), self.model.stack.breaks.tobytes()
+
+
+def free_gain(walls: int, tangents: int, count: int, together: float) -> float:
+    """What a free profile must gain over lines and arcs.
+
+    Parameters
+    ----------
+    walls : int
+        How many lines and arcs.
+    tangents : int
+        How many of them run into the next.
+    count : int
+        Number of points.
+    together : float
+        How many of them go together.
+
+    Notes
+    -----
+    In the end the lines and arcs have one axis, and those that run into each other one radius (`coaxial`),
+    but as yet each is priced with its own. Among strokes, which drift, the curve that follows them is the
+    nearer one more often than not, so that there this does not count.
+    """
+    shared = 2 * (walls - 1) + tangents if together == 1 else 0
+    return (FREE_GAIN if walls < 3 else CHAIN_GAIN) + price(shared, count, together)
+
+
+def tried(points: Floats, model: ExactModel, change: Change, together: float) -> ExactModel | None:
+    """Fit a changed model around its change; None if it does not pay.
+
+    Parameters
+    ----------
+    points : (n, 3) float array
+    model : ExactModel
+        What is changed.
+    change : Change
+    together : float
+        How many of the points go together.
+    """
+    if change.free:
+        return tried_free(points, model, change, together)[0]
+    candidate, runs = change.model, change.runs
+    near = _beside_either(points[_at_heights(points, candidate, runs)], model, candidate)
+    if not len(near):
+        return None
+    count = len(points)
+    least = worth(near, model, together, count) + change.handicap
+    if change.nested and HOPE * promise(near, candidate) / together < least - worth(
+        near, candidate, together, count
+    ):
+        return None
+    for steps in STEPS:
+        candidate, _, _ = climb(
+            near, candidate, steps, runs=_with_neighbours(candidate, runs), enough=ENOUGH * together
+        )
+        if worth(near, candidate, together, count) < least - HOPELESS:
+            return None
+    candidate = natural_joins(candidate)
+    return candidate if worth(near, candidate, together, count) > least else None
+
+
+def tried_free(
+    points: Floats, model: ExactModel, change: Change, together: float
+) -> tuple[ExactModel | None, float]:
+    """Fit a change to a free wall, as `tried`, and say by how much more than it must it gains.
+
+    A bad model is a noisy one and a better one need not be, so that both are judged with the noise and the
+    density that suit them; and a free wall has farther to go.
+    """
+    candidate, runs = replace(change.model, sigma=min(change.model.sigma, SHARP)), change.runs
+    sigma, count, enough = model.sigma, len(points), ENOUGH * together
+    here = _at_heights(points, candidate, runs)
+    inner, rest = points[here], points[~here]
+    near = _beside_either(inner, model, candidate)
+    if not len(near):
+        return None, -np.inf
+
+    def value(model: ExactModel) -> float:
+        """Worth by all points, those at other heights as ones inside, which the density matters to."""
+        others = float(np.log(model.density.at(rest)).sum()) / together
+        return worth(inner, model, together, count) + others
+
+    wide = _with_neighbours(candidate, runs)
+    before = range(wide.start, wide.stop + len(model.stack.runs) - len(candidate.stack.runs))
+    model = fit_density(points, model, 1)
+    candidate, _, _ = climb(_beside(near, candidate), candidate, STEPS[0], runs=wide, enough=enough)
+    gain = value(candidate) - value(model) - change.handicap
+    if gain < -PATIENCE:
+        return None, gain
+    model, _, _ = climb(near, model, SETTLED, runs=before, noise=True, most=MOST_NOISE, enough=enough)
+    least = value(fit_density(points, model, 1)) + change.handicap
+    for steps in (*STEPS, SETTLED):
+        candidate = fit_density(points, candidate, 1)
+        candidate, _, _ = climb(
+            _beside(near, candidate), candidate, steps, runs=wide, noise=True, most=MOST_NOISE, enough=enough
+        )
+        gain = value(candidate) - least
+        if gain < -PATIENCE:
+            return None, gain
+    candidate = natural_joins(candidate)
+    gain = value(candidate) - least
+    return replace(candidate, sigma=sigma) if gain > 0 else None, gain
+
+
+def worth(points: Floats, model: ExactModel, together: float, count: int) -> float:
+    """Log likelihood of some of a cloud's points (n, 3), less the price of the model for all of them."""
+    lengths = np.diff(model.stack.breaks)
+    short = np.maximum(1 - lengths / (SHORT * model.sigma), 0.0)
+    runs = len(lengths) * float(np.log(count / together)) + SHORTNESS * float(short.sum())
+    runs += DETACHED * detached(model)
+    return value_of(points, model) / together - (price(model.parameters, count, together) + runs)
+
+
+def _with_neighbours(model: ExactModel, runs: range) -> range:
+    return range(max(runs.start - 1, 0), min(runs.stop + 1, len(model.stack.runs)))
+
+
+def _beside(points: Floats, model: ExactModel) -> Floats:
+    return points[beside_walls(points, model, BESIDE * model.sigma)]
+
+
+def _beside_either(points: Floats, model: ExactModel, candidate: ExactModel) -> Floats:
+    """Points beside the walls of either model, as far as the noise of the first reaches."""
+    width = BESIDE * model.sigma
+    return points[beside_walls(points, model, width) | beside_walls(points, candidate, width)]
+
+
+def _at_heights(points: Floats, model: ExactModel, runs: range) -> NDArray[np.bool_]:
+    """(n,) whether points (n, 3) lie at the heights of runs and their neighbours."""
+    breaks = model.stack.breaks
+    low = -np.inf if runs.start <= 1 else breaks[runs.start - 1]
+    high = np.inf if runs.stop >= len(breaks) - 2 else breaks[runs.stop + 1]
+    return np.asarray((points[:, 2] > low) & (points[:, 2] < high))

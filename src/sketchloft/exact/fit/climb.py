@@ -1,0 +1,191 @@
+"""Fit: all parameters of all runs at once, by likelihood on the raw points."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sketchloft.cloud import Floats
+from sketchloft.exact.fit.expected import mass_nodes, wall_nodes
+from sketchloft.exact.fit.likelihood import Evaluation, evaluate, share_of
+from sketchloft.exact.fit.tilt import tilted
+from sketchloft.exact.model.density import Density, regressed
+from sketchloft.exact.model.exact_model import ExactModel
+from sketchloft.exact.model.joins import joined
+from sketchloft.exact.model.soundness import sound
+
+__all__ = ["climb", "fit_density", "promise"]
+
+Bools = NDArray[np.bool_]
+
+FEWEST = 0.5
+"""Strays at least."""
+STRAY_MOST = 0.06
+"""Largest share of strays."""
+MOST_CHANGE = 0.5
+"""Largest change of the logarithm of the density in one round, lest it run away with a shrinking model."""
+TINY = 1e-12
+LAST = 4
+"""Parameters that come last: tilt, log sigma and log stray."""
+LARGEST = 0.5, 1.0
+"""Largest steps of the last two."""
+STRIDE = 3.0
+"""How far a single parameter may move a wall in one step, in noise deviations."""
+
+
+def climb(
+    points: Floats,
+    model: ExactModel,
+    steps: int,
+    *,
+    tilt: bool = False,
+    noise: bool = False,
+    strays: bool = False,
+    caps: bool = True,
+    least: float = 1e-5,
+    most: float = np.inf,
+    enough: float = 0.05,
+    runs: range | None = None,
+) -> tuple[ExactModel, Floats, Floats]:
+    """Climb the likelihood from a model by damped Newton steps with the scores' outer products.
+
+    Parameters
+    ----------
+    points : (n, 3) float array
+    model : ExactModel
+    steps : int
+        At most this many.
+    tilt, noise, strays : bool
+        Whether the direction, sigma and the density of strays move, too; the last only where all strays
+        are among the points.
+    caps : bool
+        Whether the first and last break are walls; without, they are not moved.
+    runs : range, optional
+        The runs whose walls, and the breaks between them, move; the ends of the stack move with them.
+    least, most : float
+        Smallest and largest sigma.
+    enough : float
+        Gain of a step, in log likelihood, below which it is the last.
+
+    Returns
+    -------
+    ExactModel
+    (n, 3) float array
+        The points, turned where the tilt is free.
+    (3, 3) float array
+        The rotation: new points = old points @ rotation.
+    """
+    damping, turn = 1e-3, np.eye(3)
+    model = joined(model)
+    now = evaluate(points, model, caps=caps)
+    if not np.isfinite(now.value):
+        return model, points, turn
+    for _ in range(steps):
+        free = _free(model, tilt=tilt, noise=noise, strays=strays)
+        if runs is not None:
+            free &= _of_runs(model, runs)
+        if not caps:
+            free[[model.size, -LAST - 1]] = False
+        moved = None
+        for _ in range(6):
+            step = _step(now, free, damping, model.sigma)
+            candidate, rotation = _moved(model, step, (least, most))
+            turned = points @ rotation
+            then = evaluate(turned, candidate, caps=caps)
+            if then.value > now.value:
+                moved = candidate, turned, rotation, then
+                break
+            damping = max(10 * damping, 1e-3)
+        if moved is None:
+            break
+        gain = moved[3].value - now.value
+        model, points, rotation, now = moved
+        turn, damping = turn @ rotation, damping / 10
+        if gain < enough:
+            break
+    return model, points, turn
+
+
+def promise(points: Floats, model: ExactModel) -> float:
+    """Log likelihood that the walls would gain by moving, as its slopes say (score test).
+
+    Parameters
+    ----------
+    points : (n, 3) float array
+    model : ExactModel
+    """
+    now = evaluate(points, model)
+    if not np.isfinite(now.value):
+        return 0.0
+    index = np.flatnonzero(_free(model, tilt=False, noise=False, strays=False))
+    information, score = now.information[np.ix_(index, index)], now.score[index]
+    ridge = 1e-9 * max(float(np.diag(information).max(initial=0.0)), 1e-300) * np.eye(len(index))
+    return float(score @ np.linalg.solve(information + ridge, score)) / 2
+
+
+def _free(model: ExactModel, *, tilt: bool, noise: bool, strays: bool) -> Bools:
+    steps = [join == "step" for join in model.joins]
+    return np.array([*[True] * model.size, *steps, tilt, tilt, noise, strays])
+
+
+def _of_runs(model: ExactModel, runs: range) -> Bools:
+    """Parameters of some runs' walls that no other run shares, the breaks within, and the last ones."""
+    mine = np.zeros(model.size + len(model.stack.breaks) + LAST, dtype=bool)
+    mine[-LAST:] = True
+    others = np.zeros(model.size, dtype=bool)
+    for j, row in enumerate(model.slots):
+        for slot in row:
+            (mine if j in runs else others)[slot] = True
+    mine[: model.size] &= ~others
+    last = len(model.slots)
+    low = runs.start if runs.start == 0 else runs.start + 1
+    high = runs.stop if runs.stop == last else runs.stop - 1
+    mine[model.size + low : model.size + high + 1] = True
+    return mine
+
+
+def _step(now: Evaluation, free: Bools, damping: float, sigma: float) -> Floats:
+    step = np.zeros(len(now.score))
+    index = np.flatnonzero(free)
+    information = now.information[np.ix_(index, index)]
+    diagonal = np.diag(information).copy()
+    floor = 1e-9 * max(float(diagonal.max(initial=0.0)), 1.0) + (0.1 * now.reach[index] / sigma) ** 2
+    information = information + np.diag(damping * diagonal + floor * max(damping, 1e-3))
+    raw = np.linalg.solve(information + 1e-12 * np.eye(len(index)), now.score[index])
+    limit = STRIDE * sigma / np.maximum(now.reach[index], TINY)
+    for place, largest in zip((len(free) - 2, len(free) - 1), LARGEST, strict=True):
+        limit[index == place] = largest
+    step[index] = np.clip(raw, -limit, limit)
+    return step
+
+
+def _moved(model: ExactModel, step: Floats, limits: tuple[float, float]) -> tuple[ExactModel, Floats]:
+    walls = model.size
+    breaks = np.maximum.accumulate(model.stack.breaks + step[walls:-LAST])
+    candidate = model.moved(model.vector + step[:walls], breaks)
+    x, y, wider, more = step[-LAST:].tolist()
+    sigma = float(np.clip(model.sigma * np.exp(wider), *limits))
+    stray = max(model.stray * float(np.exp(more)), FEWEST / model.space)
+    return joined(replace(candidate, sigma=sigma, stray=stray)), tilted(x, y)
+
+
+def fit_density(points: Floats, model: ExactModel, rounds: int = 3, *, caps: bool = True) -> ExactModel:
+    """Fit the density inside and that of the strays to the points (n, 3), the walls held still."""
+    if not sound(model):
+        return model
+    at, volumes = mass_nodes(model, wall_nodes(model))
+    count = len(model.density.coefficients)
+    terms, nodes = Density.terms(points, count), Density.terms(at, count)
+    for _ in range(rounds):
+        share = share_of(points, model, caps=caps)
+        coefficients = model.density.coefficients.copy()
+        mass = max(float(np.exp(np.clip(nodes @ coefficients, -50, 50)) @ volumes), 1e-12)
+        change = np.log(max(float(share.sum()), 1.0) / mass)
+        coefficients[0] += float(np.clip(change, -MOST_CHANGE, MOST_CHANGE))
+        if count > 1:
+            coefficients = regressed(coefficients, nodes, volumes, share @ terms, steps=4)
+        stray = float(np.clip((1 - share).sum(), FEWEST, STRAY_MOST * len(points))) / model.space
+        model = replace(model, density=Density(coefficients), stray=stray)
+    return model

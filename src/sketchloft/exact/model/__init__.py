@@ -1,0 +1,1 @@
+"""The model of the exact method: a stack of walls with the noise and the density of the cloud."""

@@ -1,0 +1,118 @@
+"""Joins: the heights of breaks that follow from the walls beside them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from sketchloft.cloud import Floats
+from sketchloft.exact.model.exact_model import ExactModel, Join
+from sketchloft.stack import Run, Wall
+from sketchloft.wall.profile import ArcProfile
+from sketchloft.wall.revolved import Revolved, radius_at
+from sketchloft.wall.swept import Swept
+
+__all__ = ["crossing", "joined", "natural_joins", "poles", "sole_profile"]
+
+CLOSE = 4.0
+"""Walls that come this near to each other at a break, or to the axis at an end, in noise deviations, meet."""
+
+
+def joined(model: ExactModel) -> ExactModel:
+    """Put every break that is no step where its walls say."""
+    breaks = model.stack.breaks.copy()
+    for k, join in enumerate(model.joins):
+        height = _height(model, k, join)
+        if height is not None:
+            breaks[k] = height
+    breaks = np.maximum.accumulate(breaks)
+    return model.moved(model.vector, breaks)
+
+
+def natural_joins(model: ExactModel) -> ExactModel:
+    """Let breaks be crossings, tangents or poles where the walls beside them nearly meet so."""
+    runs, breaks = model.stack.runs, model.stack.breaks
+    joins: list[Join] = ["step"] * len(breaks)
+    near = CLOSE * model.sigma
+    for k in range(1, len(runs)):
+        joins[k] = _natural(runs[k - 1], runs[k], float(breaks[k]), near)
+    for k, run, side in ((0, runs[0], -1), (len(runs), runs[-1], 1)):
+        pole = _pole(run, side)
+        if pole is not None and side * (pole - breaks[k]) < near:
+            joins[k] = "pole"
+    return joined(replace(model, joins=tuple(joins)))
+
+
+def _natural(below: Run, above: Run, height: float, near: float) -> Join:
+    first, second = sole_profile(below), sole_profile(above)
+    if first is None or second is None or np.hypot(*(first.centre - second.centre)) > near:
+        return "step"
+    (r1, g1), (r2, g2) = (radius_at(wall.profile, np.array([height])) for wall in (first, second))
+    gap = abs(float(r1[0] - r2[0]))
+    bend = abs(float(np.arctan(g1[0]) - np.arctan(g2[0])))
+    if {first.kind, second.kind} == {"cylinder", "sphere"} and gap < near:
+        arc = (first if first.kind == "sphere" else second).profile
+        if isinstance(arc, ArcProfile) and abs(arc.height - height) < max(0.2 * arc.radius, near):
+            return "tangent"
+    if bend < 0.05:
+        return "step"
+    found = crossing(below, above, height, near / max(bend, 0.1) + near)
+    return "step" if found is None or gap > near * (1 + abs(float(g1[0]) - float(g2[0]))) else "cross"
+
+
+def _height(model: ExactModel, k: int, join: str) -> float | None:
+    runs = model.stack.runs
+    if join == "pole":
+        return _pole(runs[0], -1) if k == 0 else _pole(runs[-1], 1)
+    if join == "tangent":
+        for run in (runs[k - 1], runs[k]):
+            wall = sole_profile(run)
+            if wall is not None and isinstance(wall.profile, ArcProfile):
+                return wall.profile.height
+    if join == "cross":
+        reach = min(np.diff(model.stack.breaks)[[k - 1, k]]) / 2
+        return crossing(runs[k - 1], runs[k], float(model.stack.breaks[k]), float(reach))
+    return None
+
+
+def poles(wall: Wall) -> tuple[float, float]:
+    """Heights between which a sphere or a dome lies; infinite for other walls."""
+    if isinstance(wall, Swept) and wall.bows:
+        return wall.tips()
+    if isinstance(wall, Revolved) and isinstance(wall.profile, ArcProfile) and wall.profile.offset is None:
+        return wall.profile.height - wall.profile.radius, wall.profile.height + wall.profile.radius
+    return -np.inf, np.inf
+
+
+def _pole(run: Run, side: int) -> float | None:
+    """Where the wall of a run, if it has one only, meets its axis as a sphere or a dome does."""
+    pole = poles(run.walls[0])[side > 0]
+    return pole if len(run.walls) == 1 and np.isfinite(pole) else None
+
+
+def sole_profile(run: Run) -> Revolved | None:
+    """Return the wall of a run that has one only, and that revolved."""
+    if len(run.walls) == 1 and isinstance(run.walls[0], Revolved):
+        return run.walls[0]
+    return None
+
+
+def crossing(below: Run, above: Run, height: float, reach: float) -> float | None:
+    """Height nearest to a break, within reach, where two revolved walls have the same radius."""
+    first, second = sole_profile(below), sole_profile(above)
+    if first is None or second is None:
+        return None
+    z = height + reach * np.linspace(-1, 1, 65)
+    for _ in range(6):
+        gap = _gap(first, second, z)
+        change = np.flatnonzero(gap[:-1] * gap[1:] <= 0)
+        if not len(change):
+            return None
+        i = change[np.argmin(np.abs((z[change] + z[change + 1]) / 2 - height))]
+        z = np.linspace(z[i], z[i + 1], 65)
+    return float(z[32])
+
+
+def _gap(first: Revolved, second: Revolved, z: Floats) -> Floats:
+    return radius_at(first.profile, z)[0] - radius_at(second.profile, z)[0]

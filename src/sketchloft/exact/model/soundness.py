@@ -1,0 +1,129 @@
+"""Soundness: whether a model's walls can bound a solid at all, before points judge it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from sketchloft.cloud import Floats
+from sketchloft.exact.model.exact_model import ExactModel
+from sketchloft.exact.model.joins import poles
+from sketchloft.outline.polygons import LineArc, Polygon
+from sketchloft.outline.rounded_polygon import RoundedPolygon
+from sketchloft.outline.spline_loop import SplineLoop
+from sketchloft.stack import Run, Wall, section_boundary
+from sketchloft.wall.filleted import Filleted
+from sketchloft.wall.lofted import Lofted
+from sketchloft.wall.profile import ArcProfile, SplineProfile
+from sketchloft.wall.revolved import Revolved
+from sketchloft.wall.ruled import SAMPLES, Ruled
+from sketchloft.wall.swept import Swept
+
+__all__ = ["covers", "detached", "sound"]
+
+MAY_CROSS = (Polygon, LineArc, RoundedPolygon, SplineLoop)
+"""Outlines that may cross themselves."""
+FARTHEST = 1e4
+"""Parameters are below this, as the cloud is about 1 across."""
+LEFT = 0.02
+"""Share of a section that its holes leave at least."""
+ROOM = 0.49
+"""Largest fillet, in shares of a prism's edges."""
+AROUND = 32
+LEVELS = 17
+"""Heights of a run at which its sections are looked at."""
+
+
+def sound(model: ExactModel) -> bool:
+    """Whether the breaks rise, and every wall encloses something and nowhere crosses itself."""
+    breaks = model.stack.breaks
+    if not (np.abs(model.vector) < FARTHEST).all() or not (np.diff(breaks) > 0).all():
+        return False
+    for j, run in enumerate(model.stack.runs):
+        if not all(covers(wall, breaks[j], breaks[j + 1]) and _closes(wall) for wall in run.walls):
+            return False
+        ends = np.linspace(breaks[j], breaks[j + 1], LEVELS)
+        at = ends[LEVELS // 3 : -(LEVELS // 3)]  # a sphere may end before its break does
+        if run.holes and (run.area(at) < LEFT * sum(_outer(run, at))).any():
+            return False
+        if len(run.walls) > 1 and not all(_apart(run, height) for height in (at[0], at[-1])):
+            return False
+        if any((wall.area(at) <= 0).any() or not _simple(wall, ends[:: LEVELS // 8]) for wall in run.walls):
+            return False
+    return True
+
+
+def _apart(run: Run, height: float) -> bool:
+    """Whether the pieces of a section lie beside each other, and the holes too, each of them in a piece."""
+    rings = [section_boundary(wall, height, AROUND).points for wall in run.walls]
+    pieces = len(run.walls) - run.holes
+    for k, ring in enumerate(rings):
+        inside = np.array([wall.foot(ring).distance < 0 for wall in run.walls])
+        inside[k] = False
+        in_pieces, in_holes = inside[:pieces], inside[pieces:]
+        if k < pieces and in_pieces.any():
+            return False
+        if k >= pieces and (in_holes.any() or not in_pieces.any(axis=0).all()):
+            return False
+    return True
+
+
+def _outer(run: Run, heights: Floats) -> list[Floats]:
+    return [wall.area(heights) for wall in run.walls[: len(run.walls) - run.holes]]
+
+
+def detached(model: ExactModel) -> int:
+    """Number of walls that end before a break that other runs lie beyond, so that these hang on nothing."""
+    return sum(_ends_within(wall, model, j) for j, run in enumerate(model.stack.runs) for wall in run.walls)
+
+
+def _ends_within(wall: Wall, model: ExactModel, j: int) -> bool:
+    """Whether a sphere or a dome ends before a break that other runs lie beyond."""
+    low, high = poles(wall)
+    below, above = model.stack.breaks[j], model.stack.breaks[j + 1]
+    return bool((j > 0 and below < low) or (j + 1 < len(model.stack.runs) and above > high))
+
+
+def _closes(wall: Wall) -> bool:
+    """Whether a wall that bows is part of an ellipsoid, or of its like over another outline."""
+    return not isinstance(wall, Swept) or not wall.bows or abs(wall.bow) > abs(wall.taper)
+
+
+def _simple(wall: Wall, heights: Floats) -> bool:
+    """Whether the sections at heights (m,) nowhere cross themselves."""
+    from shapely import is_valid, linearrings, polygons  # noqa: PLC0415
+
+    if isinstance(wall, Lofted):
+        count = 4 * wall.poles.shape[1]
+        rings = wall.ring(heights, np.arange(count) / count)
+    elif isinstance(wall, Ruled):
+        rings = wall.ring(heights, SAMPLES).reshape(len(heights), -1, 2)
+    elif isinstance(wall, Swept) and isinstance(wall.outline, MAY_CROSS):
+        rings = wall.outline.boundary(64).points[None]
+    else:
+        return True
+    return bool(is_valid(polygons(linearrings(rings))).all())
+
+
+def covers(wall: Wall, low: float, high: float) -> bool:
+    """Whether a spline's knots, or a torus, reach over a stretch of heights."""
+    ends = (-np.inf, np.inf)
+    if isinstance(wall, Lofted):
+        ends = wall.knots[0], wall.knots[-1]
+    if isinstance(wall, Revolved) and isinstance(wall.profile, SplineProfile):
+        ends = wall.profile.knots[0], wall.profile.knots[-1]
+        if not (wall.area(np.linspace(low, high, LEVELS)) > 0).all():
+            return False
+    if (
+        isinstance(wall, Revolved)
+        and isinstance(wall.profile, ArcProfile)
+        and wall.profile.offset is not None
+    ):
+        ends = wall.profile.height - wall.profile.radius, wall.profile.height + wall.profile.radius
+    if isinstance(wall, Filleted):
+        return _fits(wall.between(low, high))
+    return bool(ends[0] <= low and high <= ends[1])
+
+
+def _fits(wall: Filleted) -> bool:
+    """Whether the fillets of a prism leave room between them."""
+    return 0 < wall.radius < ROOM * min(wall.outline.width, wall.outline.height, wall.high - wall.low)

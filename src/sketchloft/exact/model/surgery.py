@@ -1,0 +1,47 @@
+"""Surgery: models with a run taken out, put in, or changed, all else as it was."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from sketchloft.exact.model.exact_model import ExactModel, model_of
+from sketchloft.exact.model.joins import natural_joins
+from sketchloft.stack import Run, Stack, Wall
+
+__all__ = ["with_run", "with_runs", "with_split", "without_run"]
+
+
+def with_runs(model: ExactModel, first: int, last: int, run: Run) -> ExactModel:
+    """Replace runs first to last (included) by one."""
+    breaks = np.delete(model.stack.breaks, slice(first + 1, last + 1))
+    runs = (*model.stack.runs[:first], run, *model.stack.runs[last + 1 :])
+    return _rebuilt(model, Stack(breaks, runs))
+
+
+def with_run(model: ExactModel, index: int, run: Run) -> ExactModel:
+    """Replace one run."""
+    return with_runs(model, index, index, run)
+
+
+def with_split(model: ExactModel, index: int, heights: Sequence[float], walls: Sequence[Wall]) -> ExactModel:
+    """Replace one run by several of one wall each, with breaks at heights between them."""
+    breaks = np.insert(model.stack.breaks, index + 1, heights)
+    split = tuple(Run((wall,)) for wall in walls)
+    return _rebuilt(model, Stack(breaks, (*model.stack.runs[:index], *split, *model.stack.runs[index + 1 :])))
+
+
+def without_run(model: ExactModel, index: int, heir: int | None) -> ExactModel:
+    """Take a run out; a neighbour takes over its heights, or nobody where it is the first or last."""
+    if heir is not None:
+        return with_runs(model, min(index, heir), max(index, heir), model.stack.runs[heir])
+    breaks = np.delete(model.stack.breaks, 0 if index == 0 else len(model.stack.breaks) - 1)
+    runs = tuple(run for j, run in enumerate(model.stack.runs) if j != index)
+    return _rebuilt(model, Stack(breaks, runs))
+
+
+def _rebuilt(model: ExactModel, stack: Stack) -> ExactModel:
+    fresh = model_of(stack, model.sigma, model.density, model.stray, model.space)
+    return natural_joins(replace(fresh, core=model.core))

@@ -1,0 +1,1 @@
+"""The search: from a first stack to the model that explains the points best."""

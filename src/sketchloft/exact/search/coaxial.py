@@ -1,0 +1,97 @@
+"""Coaxial: one axis for all revolved walls, and one radius for what runs into each other."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from sketchloft.cloud import Floats
+from sketchloft.exact.changes.simpler_walls import as_revolved
+from sketchloft.exact.changes.trial import worth
+from sketchloft.exact.fit.climb import climb
+from sketchloft.exact.fit.likelihood import beside_walls
+from sketchloft.exact.fit.tilt import onto_z
+from sketchloft.exact.model.exact_model import ExactModel, tied
+from sketchloft.exact.model.joins import natural_joins
+from sketchloft.stack import Run, Stack, Wall
+from sketchloft.wall.profile import ArcProfile
+from sketchloft.wall.revolved import Revolved
+from sketchloft.wall.swept import Swept
+
+__all__ = ["coaxial"]
+
+BESIDE = 12.0
+"""Noise deviations from the walls within which points decide."""
+STEEPEST = 0.2
+"""Largest slope of the line through the centres that is taken for a common axis seen askew."""
+
+
+def coaxial(
+    points: Floats, model: ExactModel, together: float, *, tilt: bool
+) -> tuple[ExactModel, Floats, Floats]:
+    """Let all revolved walls have one axis, if it pays.
+
+    Returns
+    -------
+    ExactModel
+    (n, 3) float array
+        The points, turned so that the axis is along z where the tilt is free.
+    (3, 3) float array
+        The rotation: new points = old points @ rotation.
+    """
+    model = _as_cylinders(model)
+    places = [
+        (j, i)
+        for j, run in enumerate(model.stack.runs)
+        for i, wall in enumerate(run.walls)
+        if isinstance(wall, Revolved)
+    ]
+    still = model, points, np.eye(3)
+    if len(places) < 2:
+        return still
+    turn = _through_centres(model, places) if tilt else np.eye(3)
+    turned = points @ turn
+    pairs = [((*places[0], k), (*place, k)) for place in places[1:] for k in (0, 1)] + _tangents(model)
+    near = turned[beside_walls(turned, model, BESIDE * model.sigma)]
+    change, _, rotation = climb(near, tied(model, pairs), 12, tilt=tilt)
+    change = natural_joins(change)
+    turned, count = turned @ rotation, len(points)
+    pays = worth(turned, change, together, count) > worth(points, model, together, count)
+    return (change, turned, turn @ rotation) if pays else still
+
+
+def _as_cylinders(model: ExactModel) -> ExactModel:
+    """The model with cylinders for circles that go straight up; their parameters are the same."""
+    runs = tuple(Run(tuple(_as_cylinder(wall) for wall in run.walls), run.holes) for run in model.stack.runs)
+    return replace(model, stack=Stack(model.stack.breaks, runs))
+
+
+def _as_cylinder(wall: Wall) -> Wall:
+    return as_revolved(wall) if isinstance(wall, Swept) and not wall.free else wall
+
+
+def _tangents(model: ExactModel) -> list[tuple[tuple[int, int, int], tuple[int, int, int]]]:
+    """Radii of spheres and of the cylinders they run into."""
+    place = {"cylinder": 2, "sphere": 3}
+    radius = [(j, 0, place.get(run.walls[0].kind, 0)) for j, run in enumerate(model.stack.runs)]
+    return [(radius[k - 1], radius[k]) for k, join in enumerate(model.joins) if join == "tangent"]
+
+
+def _through_centres(model: ExactModel, places: list[tuple[int, int]]) -> Floats:
+    """Rotation that brings the line through the walls' centres along z."""
+    breaks = model.stack.breaks
+    at, weights = [], []
+    for j, i in places:
+        wall = model.stack.runs[j].walls[i]
+        if isinstance(wall, Revolved):
+            height = (breaks[j] + breaks[j + 1]) / 2
+            if isinstance(wall.profile, ArcProfile) and wall.profile.offset is None:
+                height = wall.profile.height
+            at.append([*wall.centre, height])
+            weights.append(breaks[j + 1] - breaks[j])
+    z = np.array(at)[:, 2]
+    if np.ptp(z) < 1e-3:
+        return np.eye(3)
+    slope = np.polyfit(z, np.array(at)[:, :2], 1, w=np.sqrt(weights))[0]
+    return np.eye(3) if np.hypot(*slope) > STEEPEST else onto_z(slope)

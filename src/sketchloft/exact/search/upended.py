@@ -1,0 +1,105 @@
+"""Upended: a box stood on another of its faces, from where more of its edges may be rounded ones."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from sketchloft.cloud import Floats
+from sketchloft.exact.changes.evidence import improved
+from sketchloft.exact.changes.filleted_walls import fillets
+from sketchloft.exact.changes.trial import worth
+from sketchloft.exact.fit.climb import fit_density
+from sketchloft.exact.fit.likelihood import value_of
+from sketchloft.exact.model.density import Density
+from sketchloft.exact.model.exact_model import ExactModel, model_of
+from sketchloft.outline.candidates import rectangle_of
+from sketchloft.outline.placed_polygons import Rectangle, RoundedRectangle
+from sketchloft.stack import Run, Stack, Wall
+from sketchloft.wall.swept import Swept
+
+__all__ = ["upended"]
+
+AROUND = 96
+FILLED = 0.9
+"""Share of the rectangle around it that the section of a box fills, edges rounded or not."""
+HINT = 0.5
+"""Log likelihood of independent points that fillets of a given size must gain for others to be tried."""
+
+
+def upended(points: Floats, model: ExactModel, together: float, *, lofts: bool) -> tuple[ExactModel, Floats]:
+    """Stand a box on another face where fillets that are seen from there explain more.
+
+    Returns
+    -------
+    ExactModel
+    (3, 3) float array
+        The rotation: new points = old points @ rotation.
+
+    Notes
+    -----
+    A box is the same along either of its edges, so that its sections do not tell the direction. Fillets do:
+    those along one edge, or around one face, are rounded corners or ends of a prism along that edge only.
+    """
+    best, turn = model, np.eye(3)
+    for other, rotation in _stood_otherwise(points, model):
+        turned = points @ rotation
+        least = value_of(turned, other) + HINT * together
+        if max(value_of(turned, _with(other, wall)) for wall in _rounded(other)) > least:
+            found = improved(turned, other, together, lofts=lofts)
+            if best is model:
+                best = fit_density(points, model)
+            if _worth(turned, found, together) > _worth(points @ turn, best, together):
+                best, turn = found, rotation
+    return best, turn
+
+
+def _worth(points: Floats, model: ExactModel, together: float) -> float:
+    return worth(points, model, together, len(points))
+
+
+def _stood_otherwise(points: Floats, model: ExactModel) -> list[tuple[ExactModel, Floats]]:
+    """The box along its two other edges, and the rotations that bring these along z; none if it is no box."""
+    (run, low, high), *others = model.stack.slabs()
+    wall = run.walls[0]
+    if others or len(run.walls) > 1 or not isinstance(wall, Swept) or wall.free:
+        return []
+    outline = wall.outline
+    if isinstance(outline, RoundedRectangle):
+        return []
+    box = outline if isinstance(outline, Rectangle) else rectangle_of(outline.boundary(AROUND).points)
+    if outline.area < FILLED * box.area:
+        return []
+    cos, sin = np.cos(box.angle), np.sin(box.angle)
+    along, across, up = np.array([cos, sin, 0.0]), np.array([-sin, cos, 0.0]), np.array([0.0, 0.0, 1.0])
+    middle = np.array([*box.centre, (low + high) / 2])
+    sizes = np.array([box.width, box.height, high - low])
+    found = []
+    for axes, order in (((across, up, along), (1, 2, 0)), ((up, along, across), (2, 0, 1))):
+        rotation = np.column_stack(axes)
+        x, y, z = (middle @ rotation).tolist()
+        width, height, length = sizes[list(order)].tolist()
+        sharp = replace(wall, outline=Rectangle(np.array([x, y]), width, height, 0.0))
+        stack = Stack(np.array([z - length / 2, z + length / 2]), (Run((sharp,)),))
+        count = len(points) / float(sizes.prod())
+        density = np.zeros(len(model.density.coefficients))
+        density[0] = np.log(count)
+        stood = model_of(stack, model.sigma, Density(density), model.stray, model.space)
+        found.append((fit_density(points @ rotation, stood), rotation))
+    return found
+
+
+def _rounded(model: ExactModel) -> Iterator[Wall]:
+    """The box with fillets on the edges along it, on all edges, and on those of either end."""
+    wall = model.stack.runs[0].walls[0]
+    if isinstance(wall, Swept) and isinstance(wall.outline, Rectangle):
+        for prisms in map(list, fillets(wall.outline)):
+            yield replace(wall, outline=prisms[0].outline)
+            yield from prisms
+
+
+def _with(model: ExactModel, wall: Wall) -> ExactModel:
+    stack = Stack(model.stack.breaks, (Run((wall,)),))
+    return replace(model_of(stack, model.sigma, model.density, model.stray, model.space), core=model.core)

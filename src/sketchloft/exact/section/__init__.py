@@ -1,0 +1,1 @@
+"""Sections: the outlines and walls of one segment, chosen by evidence."""

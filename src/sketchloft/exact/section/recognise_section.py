@@ -1,0 +1,249 @@
+"""Recognise section: the outline of every loop of a segment's section, chosen by evidence."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from sketchloft.cloud import Floats
+from sketchloft.exact.fit.climb import climb, fit_density
+from sketchloft.exact.fit.schwarz import evidence
+from sketchloft.exact.model.density import Density
+from sketchloft.exact.model.exact_model import ExactModel, model_of
+from sketchloft.exact.section.section_contours import contours
+from sketchloft.outline.candidates import (
+    chains,
+    circle_of,
+    ellipse_of,
+    polygons,
+    rectangle_of,
+    spline_of,
+)
+from sketchloft.outline.circle import Circle
+from sketchloft.outline.ellipse import Ellipse
+from sketchloft.outline.outline import Arc, Outline
+from sketchloft.outline.placed_polygons import Rectangle
+from sketchloft.outline.polygons import LineArc, Polygon, corner_areas
+from sketchloft.outline.rounded_polygon import RoundedPolygon
+from sketchloft.outline.spline_loop import SplineLoop
+from sketchloft.ring import ring_length
+from sketchloft.shapes.spline import resampled
+from sketchloft.stack import Run, Stack
+from sketchloft.wall.swept import Swept
+
+__all__ = ["SectionShape", "rarity", "recognise_section"]
+
+MOST_POINTS = 3000
+BESIDE = 4.0
+"""Blurs beside a contour within which points tell where the outline is."""
+CROWDED = 1.5
+"""An outline that leaves the points so many times denser than its contour did has lost them."""
+LOST = 0.01
+"""Share of the places whose points are not looked at that an outline may leave on the wrong side."""
+HOPELESS = 150.0, 25.0
+"""An outline that is so much worse than another before the noise is fitted, in log likelihood and at least in
+evidence, is given up."""
+ENOUGH = 0.05
+"""Evidence that a step gains for there to be another."""
+COMMON = (Circle, Ellipse, Rectangle)
+RARE = 6.0
+"""Log odds against other outlines of up to six edges, of which there are more to be taken for one by chance;
+one more for each further line, two for each arc."""
+LAST = 12.0
+"""Log odds against splines, which are drawn for want of anything else."""
+LATTICE = 40
+MANY = 7
+"""Corners of a polygon that may stand for a free curve."""
+POLES = (8, 12, 16, 20)
+WAVES = np.arange(2, 13)
+EVEN = 4.0
+"""Power of a wave around a circle that chance exceeds once in exp(4) times."""
+
+
+@dataclass(frozen=True)
+class SectionShape:
+    """The outlines that bound a section.
+
+    Parameters
+    ----------
+    outlines : tuple of Outline
+        Those of pieces, then those of holes.
+    holes : int
+    """
+
+    outlines: tuple[Outline, ...]
+    holes: int
+
+
+def recognise_section(points: Floats, together: float, *, rough: bool = False) -> SectionShape | None:
+    """Find the outlines of a section filled by points (n, 2); None where there is no section.
+
+    Parameters
+    ----------
+    points : (n, 2) float array
+    together : float
+        How many of the points go together; evidence counts that much less.
+    rough : bool
+        Whether a few kinds of outlines will do.
+    """
+    outer, holes, blur = contours(points, together)
+    if not outer:
+        return None
+    outlines = [_best(points, ring, blur, together, hole=False, rough=rough) for ring in outer]
+    outlines += [_best(points, ring, blur, together, hole=True, rough=rough) for ring in holes]
+    return SectionShape(tuple(outlines), len(holes))
+
+
+def rarity(outline: Outline) -> float:
+    """Log odds against an outline before the points are seen."""
+    if isinstance(outline, SplineLoop):
+        return LAST
+    edges = sum(2.0 if isinstance(edge, Arc) else 1.0 for edge in outline.edges())
+    return 0.0 if isinstance(outline, COMMON) else max(RARE, edges)
+
+
+def _best(points: Floats, ring: Floats, blur: float, together: float, *, hole: bool, rough: bool) -> Outline:
+    """Find the best outline for one loop from the points beside it."""
+    near, core, area = _beside(points, ring, BESIDE * blur, hole=hole)
+    tried: list[tuple[float, Outline]] = []
+    seen = [-np.inf]
+    hopeless = max(HOPELESS[0] / together, HOPELESS[1])
+
+    def attempt(outline: Outline) -> float:
+        start = _model(near, core, area, outline, 0.5 * blur, hole=hole)
+        at = np.column_stack([near, np.zeros(len(near))])
+        model, value = _settled(at, start, together)
+        seen.append(value)
+        if value > max(seen) - hopeless:
+            model, value = _sharpened(at, model, start, together)
+            value -= rarity(outline)
+        wall = model.stack.runs[0].walls[0]
+        if isinstance(wall, Swept):
+            value = value if _holds(wall.outline, core[:, :2], hole=hole) else -np.inf
+            tried.append((value, wall.outline))
+        return value
+
+    free = attempt(spline_of(ring, POLES[0]))
+    circle = attempt(circle_of(ring))
+    ellipse = attempt(ellipse_of(ring))
+    if circle > max(free, ellipse) and _even(near, tried[1][1], blur, together):
+        return tried[1][1]
+    if rough:
+        attempt(rectangle_of(ring))
+        return _likeliest(tried)
+    _attempt_corners(attempt, tried, ring, blur)
+    for poles in POLES[1:] if _may_be_free(_likeliest(tried)) else ():
+        attempt(spline_of(ring, poles))
+    return _likeliest(tried)
+
+
+def _attempt_corners(
+    attempt: Callable[[Outline], float], tried: list[tuple[float, Outline]], ring: Floats, blur: float
+) -> None:
+    """Try outlines with corners, and the best polygon with fewer and fewer of them."""
+    cut = chains(ring, blur)
+    polygon = next((outline for outline in cut if isinstance(outline, Polygon)), None)
+    for outline in (*cut, *polygons(ring, polygon, blur)):
+        attempt(outline)
+    plain = [found for found in tried if isinstance(found[1], Polygon)]
+    value, outline = max(plain or tried, key=lambda found: found[0])
+    while isinstance(outline, Polygon) and len(outline.vertices) > 3:
+        simpler = attempt(_simpler(outline))
+        if simpler < value:
+            break
+        value, outline = tried[-1]
+
+
+def _may_be_free(outline: Outline) -> bool:
+    """Whether an outline is so rich that it may stand for a free curve."""
+    many = isinstance(outline, Polygon) and len(outline.vertices) >= MANY
+    return many or isinstance(outline, (LineArc, RoundedPolygon, SplineLoop))
+
+
+def _likeliest(tried: list[tuple[float, Outline]]) -> Outline:
+    return max(tried, key=lambda found: found[0])[1]
+
+
+def _holds(outline: Outline, places: Floats, *, hole: bool) -> bool:
+    """Whether an outline leaves the places (m, 2), whose points are not looked at, on their side."""
+    depth = outline.foot(places).distance * (1 if hole else -1)
+    return not len(places) or bool((depth < 0).mean() <= LOST)
+
+
+def _even(near: Floats, outline: Outline, blur: float, together: float) -> bool:
+    """Whether the points just inside and outside an outline lie evenly around it, as around a circle.
+
+    Notes
+    -----
+    Corners and flats show in the angles of the points beside the outline, whose Fourier coefficients
+    have unit variance by chance (Rayleigh's test).
+    """
+    foot = outline.foot(near)
+    arms = near[np.abs(foot.distance) < blur] - outline.boundary(24).points.mean(axis=0)
+    angles = np.arctan2(arms[:, 1], arms[:, 0])
+    powers = np.abs(np.exp(1j * WAVES[:, None] * angles).sum(axis=1)) ** 2 / max(len(angles), 1)
+    return bool((powers < EVEN * together).all())
+
+
+def _simpler(polygon: Polygon) -> Polygon:
+    """Drop the corner whose triangle with its neighbours is smallest."""
+    smallest = int(np.argmin(corner_areas(polygon.vertices)))
+    return Polygon(np.delete(polygon.vertices, smallest, axis=0))
+
+
+def _beside(points: Floats, ring: Floats, width: float, *, hole: bool) -> tuple[Floats, Floats, float]:
+    """Points within a width of a ring, thinned to `MOST_POINTS`; the area inside left out; that taken."""
+    from scipy.spatial import cKDTree  # noqa: PLC0415
+    from shapely import Polygon as Region  # noqa: PLC0415
+    from shapely import contains_xy  # noqa: PLC0415
+
+    dense = resampled(ring, int(np.ceil(4 * ring_length(ring) / width)))
+    away, _ = cKDTree(dense).query(points, distance_upper_bound=width)
+    near = points[np.isfinite(away)]
+    region = Region(dense)
+    sign = -1 if hole else 1
+    rest = region.buffer(sign * -width)
+    low, high = dense.min(axis=0) - width, dense.max(axis=0) + width
+    cells = np.stack(np.meshgrid(*[np.linspace(a, b, LATTICE) for a, b in zip(low, high, strict=True)]), -1)
+    places = cells.reshape(-1, 2)
+    places = places[contains_xy(rest, places)]
+    share = np.full(len(places), sign * float(rest.area) / max(len(places), 1))
+    core = np.column_stack([places, np.zeros(len(places)), share])
+    return near[:: len(near) // MOST_POINTS + 1], core, sign * float(region.area - rest.area)
+
+
+def _model(
+    near: Floats, core: Floats, area: float, outline: Outline, sigma: float, *, hole: bool
+) -> ExactModel:
+    wall = Swept(outline, 0.0, np.zeros(2), np.zeros(2))
+    space = float(np.prod(np.ptp(near, axis=0)))
+    return replace(
+        model_of(
+            Stack(np.array([-0.5, 0.5]), (Run((wall,), int(hole)),)),
+            sigma,
+            Density(np.array([np.log(len(near) / area), 0.0, 0.0, 0.0])),
+            1.0 / space,
+            space,
+        ),
+        core=core,
+    )
+
+
+def _settled(points: Floats, model: ExactModel, together: float) -> tuple[ExactModel, float]:
+    """Fit at the noise that all outlines begin with, and the evidence."""
+    model, _, _ = climb(points, model, 5, caps=False, enough=ENOUGH * together)
+    model = fit_density(points, model, 1, caps=False)
+    return model, evidence(points, model, together)
+
+
+def _sharpened(
+    points: Floats, model: ExactModel, start: ExactModel, together: float
+) -> tuple[ExactModel, float]:
+    """Fit the noise, too, and the evidence; none for an outline that gave up most of the points."""
+    enough = ENOUGH * together
+    model, _, _ = climb(points, model, 8, noise=True, caps=False, most=model.sigma, enough=enough)
+    model = fit_density(points, model, 1, caps=False)
+    crowded = model.density.coefficients[0] - start.density.coefficients[0] > np.log(CROWDED)
+    return model, -np.inf if crowded else evidence(points, model, together)

@@ -1,0 +1,1 @@
+"""The start: the direction, the segments along it, and the first stack."""

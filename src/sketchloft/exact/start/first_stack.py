@@ -1,0 +1,55 @@
+"""Exact start: the first stack, segment by segment."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+
+from sketchloft.cloud import Floats
+from sketchloft.exact.model.density import Density
+from sketchloft.exact.model.exact_model import ExactModel, model_of
+from sketchloft.exact.section.segment_walls import segment_run
+from sketchloft.stack import Run, Stack
+
+__all__ = ["first_stack"]
+
+FEWEST = 60
+"""Points that a segment needs to have a section of its own."""
+
+
+def first_stack(
+    points: Floats,
+    cuts: Floats,
+    blur: float,
+    *,
+    sigma: float,
+    together: float,
+    density: Density,
+    space: float,
+    rough: bool = False,
+) -> ExactModel | None:
+    """Model of the segments between cuts (k + 1,), from points (n, 3) without strays.
+
+    Segments too thin or too empty for a section of their own are left to their neighbours. None where
+    no segment has a section. A rough one knows few kinds of sections.
+    """
+    runs: list[Run] = []
+    breaks: list[float] = []
+    last = float(cuts[0])
+    for low, high in itertools.pairwise(cuts.tolist()):
+        margin = min(blur, (high - low) / 5)
+        ends = float(low + margin), float(high - margin)
+        inner = points[(points[:, 2] > ends[0]) & (points[:, 2] < ends[1])]
+        thin = high - low < blur or len(inner) < FEWEST
+        found = None if thin else segment_run(inner, ends, sigma, together, density, rough=rough)
+        if found is None:
+            continue
+        runs.append(found)
+        breaks.append((float(low) + last) / 2)
+        last = float(high)
+    if not runs:
+        return None
+    breaks[0] = float(cuts[0])
+    stack = Stack(np.array([*breaks, float(cuts[-1])]), tuple(runs))
+    return model_of(stack, sigma, density, 1.0 / space, space)

@@ -1,0 +1,186 @@
+"""Start: the first stack along a direction, settled on the points."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from sketchloft.cloud import Floats
+from sketchloft.dispersion import clump, dispersion
+from sketchloft.errors import StageError
+from sketchloft.exact.changes.evidence import merged
+from sketchloft.exact.changes.trial import MOST_NOISE, worth
+from sketchloft.exact.fit.climb import climb, fit_density
+from sketchloft.exact.fit.likelihood import beside_walls
+from sketchloft.exact.model.exact_model import ExactModel
+from sketchloft.exact.section.level_set import LevelSet, hollow_share, level_set, on_grid
+from sketchloft.exact.start.direction import Candidate, exact_direction
+from sketchloft.exact.start.first_stack import first_stack
+from sketchloft.exact.start.inside_density import inside_density
+from sketchloft.exact.start.segments import SegmentsParams, segments
+from sketchloft.frame import Frame, frame_along, principal_frame
+from sketchloft.wall.swept import Swept
+
+__all__ = ["BESIDE", "ROOM", "SEARCH_POINTS", "Start", "directions", "start_along"]
+
+START = 0.006
+"""Noise that the search begins with, as a share of the size."""
+ROOM = 1.25
+"""Volume that strays are taken to come from, in that of the box around the points."""
+SEARCH_POINTS = 12_000
+"""The search looks at no more points; the fit looks at all."""
+DIGITS = 6
+"""Of coordinates: what a unit, an origin or a turn leaves in the last digits must not change the model."""
+BESIDE = 8.0
+"""Noise deviations beside the walls within which points are fitted."""
+HOLLOW = 0.4
+"""Share of a closed region that is empty inside from which on it is a skin."""
+
+
+@dataclass(frozen=True)
+class Start:
+    """What the search starts from.
+
+    Parameters
+    ----------
+    candidates : tuple of Candidate
+        Directions that were compared, the chosen one first; none where it was given.
+    frame : Frame
+        Of the slicing direction.
+    points, sample : (n, 3), (m, 3) float arrays
+        All points in this frame, and those that the search looks at.
+    cuts : (k + 1,) float array
+        Where the moments of the points say that the sections change.
+    together : float
+        How many points go together.
+    first, settled, merged : ExactModel
+        Segment by segment, fitted, and with no more runs than it needs.
+    settling : (3, 3) float array
+        The rotation of the points that fitting made: it is in `sample`, not in `points`.
+    """
+
+    candidates: tuple[Candidate, ...]
+    frame: Frame
+    points: Floats
+    sample: Floats
+    cuts: Floats
+    together: float
+    first: ExactModel
+    settled: ExactModel
+    merged: ExactModel
+    settling: Floats
+
+    @property
+    def direction(self) -> Floats:
+        """The direction (3,) after settling, in the axes of all points."""
+        axis: Floats = (self.settling.T @ self.frame.axes)[2]
+        return axis
+
+    @property
+    def value(self) -> float:
+        """What the merged stack is worth."""
+        return worth(self.sample, self.merged, self.together, len(self.sample))
+
+    @property
+    def plain(self) -> bool:
+        """Whether there is one run, and all its sections are the same: nothing simpler can be found."""
+        runs = self.merged.stack.runs
+        moving = any(isinstance(wall, Swept) and wall.free for run in runs for wall in run.walls)
+        return len(runs) == 1 and not moving
+
+
+def start_along(
+    points: Floats,
+    vector: Floats,
+    candidates: tuple[Candidate, ...],
+    params: SegmentsParams,
+    *,
+    fine: bool = False,
+    rough: bool = False,
+) -> Start:
+    """First stack along a direction.
+
+    Parameters
+    ----------
+    points : (n, 3) float array
+        About 1 across, about their middle.
+    vector : (3,) float array
+    candidates : tuple of Candidate
+        Directions that were compared; where there are none, the direction is given and does not move.
+    params : SegmentsParams
+    fine : bool
+        Whether heights are cut as finely as independent points would allow.
+    rough : bool
+        Whether a few kinds of sections will do.
+
+    Raises
+    ------
+    StageError
+        If no section is found, or the points are on a skin.
+    """
+    frame = frame_along(vector, points)
+    local = np.round(frame.to_local(points), DIGITS)
+    sample = _sampled(local)
+    grid, together, kept = _seen(sample)
+    if hollow_share(grid) > HOLLOW:
+        raise StageError(
+            "the points lie on the skin of the thing only, and this method needs points inside; "
+            "draw the inside too, or use the paper's method",
+            stage="runs",
+        )
+    density = inside_density(sample, grid, together)
+    cuts = segments(kept, params, clump(together) if fine else together)
+    space = ROOM * float(np.prod(np.ptp(sample, axis=0)))
+    first = first_stack(
+        kept, cuts, grid.blur, sigma=START, together=together, density=density, space=space, rough=rough
+    )
+    if first is None:
+        raise StageError("found no section that the points fill; draw more of the inside", stage="runs")
+    settled, sample, settling = _settled(sample, first, tilt=bool(candidates))
+    lean = merged(sample, settled, together)
+    return Start(candidates, frame, local, sample, cuts, together, first, settled, lean, settling)
+
+
+def directions(points: Floats, params: SegmentsParams) -> tuple[Candidate, ...]:
+    """Directions to slice along, the likeliest first.
+
+    Parameters
+    ----------
+    points : (n, 3) float array
+        About 1 across, about their middle.
+    params : SegmentsParams
+
+    Notes
+    -----
+    They are found in the frame of the principal axes, so that they turn with the cloud.
+    """
+    frame = principal_frame(points)
+    grid, together, kept = _seen(_sampled(np.round(frame.to_local(points), DIGITS)))
+    mean = kept.mean(axis=0)
+    grid = replace(grid, origin=grid.origin - mean)
+    found = exact_direction(kept - mean, grid, params, clump(together))
+    return tuple(replace(candidate, vector=frame.to_world(candidate.vector)) for candidate in found)
+
+
+def _sampled(points: Floats) -> Floats:
+    """Every so many points, as many as the search looks at."""
+    return points[:: len(points) // SEARCH_POINTS + 1]
+
+
+def _seen(points: Floats) -> tuple[LevelSet, float, Floats]:
+    """The level set of points, how many of them go together, and those that are no strays."""
+    together = dispersion(points)
+    grid = level_set(points, clump(together))
+    return grid, together, points[on_grid(grid, points, 2 * grid.blur)]
+
+
+def _settled(points: Floats, model: ExactModel, *, tilt: bool) -> tuple[ExactModel, Floats, Floats]:
+    """The first stack fitted, the points turned with its direction, and the rotation."""
+    turn = np.eye(3)
+    for noise in (False, True):
+        model = fit_density(points, model, 2)
+        near = points[beside_walls(points, model, BESIDE * model.sigma)]
+        model, _, rotation = climb(near, model, 8, tilt=tilt, noise=noise, most=MOST_NOISE)
+        points, turn = points @ rotation, turn @ rotation
+    return model, points, turn

@@ -118,7 +118,8 @@ def exact_body(
     middle, scale = middle_and_size(points)
     starts = started((points - middle) / scale, axis, params.segments, progress)
     progress("evidence")
-    for lofts in (True, False):
+    lofts = True
+    while True:
         found = searched(starts, tilt=axis == "auto", lofts=lofts, progress=progress)
         start, stack = found.start, found.model.stack
         frame = Frame(found.turn.T @ start.frame.axes)
@@ -127,7 +128,11 @@ def exact_body(
             solid, facts = built_stack(stack, origin + middle, frame.axes, scale)
             break
         except ModelError:
-            if not any(isinstance(wall, Lofted) for run in stack.runs for wall in run.walls):
+            if lofts and any(isinstance(wall, Lofted) for run in stack.runs for wall in run.walls):
+                lofts = False
+                continue
+            starts, lofts = tuple(other for other in starts if other is not start), True
+            if not starts:
                 raise
     return ExactBody(
         name,

@@ -18,6 +18,9 @@ GAUSS = np.polynomial.legendre.leggauss(8)
 SPAN_GAUSS = np.polynomial.legendre.leggauss(4)
 
 
+TINY = 1e-12
+
+
 @dataclass(frozen=True)
 class Revolved:
     """A wall of revolution about an axis along z.
@@ -99,7 +102,7 @@ def radius_at(profile: Profile, heights: Floats) -> tuple[Floats, Floats]:
         case ArcProfile(height, offset, radius, side):
             dz = heights - height
             half = np.sqrt(np.maximum(radius**2 - dz**2, 0.0))
-            lean = -side * dz / np.maximum(half, 1e-9 * radius)
+            lean = -side * dz / np.maximum(half, max(1e-9 * radius, TINY))
             return np.maximum((offset or 0.0) + side * half, 0.0), lean
         case SplineProfile(knots, radii):
             values = basis_matrix(knots, SplineProfile.degree, heights) @ radii

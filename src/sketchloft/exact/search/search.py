@@ -57,7 +57,7 @@ class Found:
 
 
 def searched(starts: tuple[Start, ...], *, tilt: bool, lofts: bool, progress: Callable[[str], None]) -> Found:
-    """Search from the best start, and where its walls stay blurred from the next: what is worth more.
+    """Search from the best start, and where its walls stay blurred from the next one and the sharpest.
 
     Parameters
     ----------
@@ -71,10 +71,13 @@ def searched(starts: tuple[Start, ...], *, tilt: bool, lofts: bool, progress: Ca
         Called with "fit" when the runs are found.
     """
     found = _found(starts[0], tilt=tilt, lofts=lofts, progress=progress)
-    if found.start.together == 1 or found.model.sigma < BLURRED:
+    others = starts[1:]
+    if found.start.together == 1 or found.model.sigma < BLURRED or not others:
         return found
-    others = [_found(start, tilt=tilt, lofts=lofts, progress=progress) for start in starts[1:2]]
-    return max([found, *others], key=lambda one: one.value)
+    sharpest = min(others, key=lambda start: start.merged.sigma)
+    next_best = [others[0]] if others[0] is sharpest else [others[0], sharpest]
+    again = [_found(start, tilt=tilt, lofts=lofts, progress=progress) for start in next_best]
+    return max([found, *again], key=lambda one: one.value)
 
 
 def _found(start: Start, *, tilt: bool, lofts: bool, progress: Callable[[str], None]) -> Found:

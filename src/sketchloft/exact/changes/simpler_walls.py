@@ -32,6 +32,10 @@ ROUNDED = 0.12
 """Radius of the corners that a rectangle is tried with, in its short side."""
 MOST_POLES = 20
 """Poles of a section from which on it is given no more."""
+PARALLEL = 0.1
+"""Sine of the angle between two edges that meet nowhere near."""
+NEAR = 3.0
+"""How far from a short edge those beside it meet at most, in its length."""
 MORE: tuple[Freedom, ...] = ("drift", "taper")
 
 
@@ -132,12 +136,28 @@ def _with_fewer_corners(outline: Outline) -> Iterator[Outline]:
     if isinstance(outline, Polygon) and len(outline.vertices) > 3:
         for k in _flattest(outline.vertices):
             yield Polygon(np.delete(outline.vertices, k, axis=0))
+        for corner in _without_chamfers(outline.vertices):
+            yield Polygon(corner)
     if isinstance(outline, LineArc) and len(outline.vertices) > 2:
         for k in _flattest(outline.vertices):
             curved, bulges = np.delete(outline.curved, k), np.delete(outline.bulges, k)
             if curved.any():
                 yield LineArc(np.delete(outline.vertices, k, axis=0), bulges, curved)
         yield Polygon(outline.vertices)
+
+
+def _without_chamfers(vertices: Floats) -> Iterator[Floats]:
+    """Vertices with one of the two shortest edges left out, where those beside it meet not far away."""
+    lengths = np.linalg.norm(np.roll(vertices, -1, axis=0) - vertices, axis=1)
+    for k in np.argsort(lengths)[:2].tolist():
+        ring = np.roll(vertices, -k, axis=0)
+        before, start, end, after = ring[[-1, 0, 1, 2]]
+        along = np.column_stack([start - before, after - end])
+        if abs(float(np.linalg.det(along))) < PARALLEL * float(np.prod(np.linalg.norm(along, axis=0))):
+            continue
+        corner = before + np.linalg.solve(along, end - before)[0] * (start - before)
+        if np.linalg.norm(corner - start) < NEAR * lengths[k]:
+            yield np.vstack([corner, ring[2:]])
 
 
 def _flattest(vertices: Floats) -> list[int]:

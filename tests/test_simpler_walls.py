@@ -1,0 +1,58 @@
+"""What a wall could be instead."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from sketchloft.cloud import Floats
+from sketchloft.exact.changes.simpler_walls import walls_like
+from sketchloft.exact.changes.turning import turning
+from sketchloft.outline.placed_polygons import Rectangle
+from sketchloft.outline.polygons import Polygon
+from sketchloft.wall.ruled import Ruled
+from sketchloft.wall.swept import Swept
+
+ORIGIN = np.zeros(2)
+ELL = np.array([[0, 0], [10, 0], [10, 4], [4, 4], [4, 10], [0, 10.0]]) / 10
+
+
+def cut(vertices: Floats, k: int, share: float) -> Floats:
+    """A polygon with one corner cut off at a share of the edges beside it."""
+    before, corner, after = vertices[k - 1], vertices[k], vertices[(k + 1) % len(vertices)]
+    ends = corner + share * (before - corner), corner + share * (after - corner)
+    return np.vstack([vertices[:k], *ends, vertices[k + 1 :]])
+
+
+@pytest.mark.parametrize("corner", range(len(ELL)))
+def test_a_cut_corner_is_tried_whole(corner: int) -> None:
+    wall = Swept(Polygon(cut(ELL, corner, 0.05)), 0.0, ORIGIN, ORIGIN)
+    others = [other.outline for other in walls_like(wall, -0.2, 0.2) if isinstance(other, Swept)]
+    whole = [other.vertices for other in others if isinstance(other, Polygon) and len(other.vertices) == 6]
+    gaps = [np.linalg.norm(found[:, None] - ELL, axis=2).min(axis=0).max() for found in whole]
+    assert min(gaps) < 1e-12
+
+
+@pytest.mark.parametrize("turn", [-0.6, 0.0, 0.4])
+@pytest.mark.parametrize("growth", [0.7, 1.0, 1.3])
+def test_a_ruled_wall_whose_ends_are_alike_turns(turn: float, growth: float) -> None:
+    below = Rectangle(np.array([0.1, 0.2]), 0.6, 0.4, 0.3)
+    above = Rectangle(np.array([0.15, 0.1]), 0.6 * growth, 0.4 * growth, 0.3 + turn)
+    ends = Polygon(below.chain()[0]), Polygon(above.chain()[0])
+    found = list(turning(Ruled(*ends, -0.2, 0.6)))
+    assert [type(wall.outline) for wall in found] == [Rectangle, Polygon]
+    for wall in found:
+        for end, height in zip(ends, (-0.2, 0.6), strict=True):
+            at = np.column_stack([end.vertices, np.full(4, height)])
+            assert np.abs(wall.foot(at).distance) == pytest.approx(
+                0, abs=4e-3
+            )  # rectangles are started to a degree
+            assert wall.area(np.array([height]))[0] == pytest.approx(end.area, rel=2e-2)
+
+
+def test_a_ruled_wall_from_one_shape_to_another_does_not_turn() -> None:
+    ends = (
+        Polygon(Rectangle(ORIGIN, 0.6, 0.2, 0.0).chain()[0]),
+        Polygon(Rectangle(ORIGIN, 0.3, 0.4, 0.0).chain()[0]),
+    )
+    assert not list(turning(Ruled(*ends, -0.2, 0.6)))

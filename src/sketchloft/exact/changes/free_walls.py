@@ -26,6 +26,8 @@ GAIN = 20.0
 CHEAP = 2.5
 """What each pole of a loft must gain. Where no line or circle does, poles are there to follow the points, and
 one that tells of more than chance brings the wall nearer to the truth (Akaike's criterion asks for 1)."""
+SIMPLEST = 10
+"""Parameters of a ruled wall at least: those of a rectangle and a circle."""
 CLEAR = 0.0042
 """Noise, as a share of the size, up to which the walls of a cloud of strokes are looked at for a misfit."""
 HOPE = 8.0
@@ -65,7 +67,9 @@ def ruled(points: Floats, model: ExactModel, together: float) -> ExactModel:
             continue
         # Strokes lie too unevenly beside the walls for a misfit to show; that they are blurred does.
         blurred = together > 1 and model.sigma > CLEAR
-        if not blurred and HOPE * misfit(points, model, chain, together) <= GAIN:
+        more = max(SIMPLEST - sum(len(wall.vector) for wall in walls), 0)
+        least = GAIN + price(more, len(points), together)
+        if not blurred and HOPE * misfit(points, model, chain, together) <= least:
             continue
         ends = float(model.stack.breaks[chain.start]), float(model.stack.breaks[chain.stop])
         found: list[tuple[float, ExactModel]] = []

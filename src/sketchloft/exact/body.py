@@ -16,7 +16,6 @@ from sketchloft.exact.start.direction import Candidate
 from sketchloft.exact.start.segments import SegmentsParams
 from sketchloft.frame import Frame
 from sketchloft.robust_size import middle_and_size
-from sketchloft.wall.lofted import Lofted
 
 if TYPE_CHECKING:
     from sketchloft.brep.facts import SolidFacts
@@ -118,22 +117,17 @@ def exact_body(
     middle, scale = middle_and_size(points)
     starts = started((points - middle) / scale, axis, params.segments, progress)
     progress("evidence")
-    lofts = True
-    while True:
-        found = searched(starts, tilt=axis == "auto", lofts=lofts, progress=progress)
-        start, stack = found.start, found.model.stack
-        frame = Frame(found.turn.T @ start.frame.axes)
+    refused: list[ModelError] = []
+    for found in searched(starts, tilt=axis == "auto", progress=progress):
+        start, frame = found.start, Frame(found.turn.T @ found.start.frame.axes)
         progress("solid")
         try:
-            solid, facts = built_stack(stack, origin + middle, frame.axes, scale)
+            solid, facts = built_stack(found.model.stack, origin + middle, frame.axes, scale)
             break
-        except ModelError:
-            if lofts and any(isinstance(wall, Lofted) for run in stack.runs for wall in run.walls):
-                lofts = False
-                continue
-            starts, lofts = tuple(other for other in starts if other is not start), True
-            if not starts:
-                raise
+        except ModelError as error:
+            refused.append(error)
+    else:
+        raise refused[-1]
     return ExactBody(
         name,
         found.points,

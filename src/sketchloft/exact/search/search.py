@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from itertools import chain
 
 import numpy as np
 
@@ -22,6 +23,7 @@ from sketchloft.exact.search.resection import resectioned
 from sketchloft.exact.search.upended import upended
 from sketchloft.exact.search.upright import upright
 from sketchloft.exact.start.start import BESIDE, Start
+from sketchloft.wall.lofted import Lofted
 
 __all__ = ["Found", "searched"]
 
@@ -56,8 +58,8 @@ class Found:
     value: float
 
 
-def searched(starts: tuple[Start, ...], *, tilt: bool, lofts: bool, progress: Callable[[str], None]) -> Found:
-    """Search from the best start, and where its walls stay blurred from the next one and the sharpest.
+def searched(starts: tuple[Start, ...], *, tilt: bool, progress: Callable[[str], None]) -> Iterator[Found]:
+    """Yield where searches end, the best first; those after it are for a model that makes no solid.
 
     Parameters
     ----------
@@ -65,19 +67,30 @@ def searched(starts: tuple[Start, ...], *, tilt: bool, lofts: bool, progress: Ca
         The best first.
     tilt : bool
         Whether the direction moves, too.
-    lofts : bool
-        Whether free walls are tried.
     progress : callable
         Called with "fit" when the runs are found.
+
+    Notes
+    -----
+    The first is searched for from the best start, and where its walls stay blurred from the next start and
+    the sharpest, too. Each end with a free loft is followed by one without.
     """
-    found = _found(starts[0], tilt=tilt, lofts=lofts, progress=progress)
-    others = starts[1:]
-    if found.start.together == 1 or found.model.sigma < BLURRED or not others:
-        return found
-    sharpest = min(others, key=lambda start: start.merged.sigma)
-    next_best = [others[0]] if others[0] is sharpest else [others[0], sharpest]
-    again = [_found(start, tilt=tilt, lofts=lofts, progress=progress) for start in next_best]
-    return max([found, *again], key=lambda one: one.value)
+
+    def search(start: Start, *, lofts: bool = True) -> Found:
+        return _found(start, tilt=tilt, lofts=lofts, progress=progress)
+
+    found = [search(starts[0])]
+    others = list(starts[1:])
+    if others and starts[0].together > 1 and found[0].model.sigma >= BLURRED:
+        sharpest = min(others, key=lambda start: start.merged.sigma)
+        for start in [others[0]] if others[0] is sharpest else [others[0], sharpest]:
+            found.append(search(start))
+            others.remove(start)
+    found.sort(key=lambda end: -end.value)
+    for end in chain(found, map(search, others)):
+        yield end
+        if any(isinstance(wall, Lofted) for run in end.model.stack.runs for wall in run.walls):
+            yield search(end.start, lofts=False)
 
 
 def _found(start: Start, *, tilt: bool, lofts: bool, progress: Callable[[str], None]) -> Found:

@@ -15,6 +15,7 @@ from sketchloft.exact.fit.climb import fit_density
 from sketchloft.exact.fit.likelihood import value_of
 from sketchloft.exact.model.density import Density
 from sketchloft.exact.model.exact_model import ExactModel, model_of
+from sketchloft.exact.model.surgery import with_run
 from sketchloft.outline.candidates import rectangle_of
 from sketchloft.outline.placed_polygons import Rectangle, RoundedRectangle
 from sketchloft.stack import Run, Stack, Wall
@@ -47,7 +48,7 @@ def upended(points: Floats, model: ExactModel, together: float, *, lofts: bool) 
     for other, rotation in _stood_otherwise(points, model):
         turned = points @ rotation
         least = value_of(turned, other) + HINT * together
-        if max(value_of(turned, _with(other, wall)) for wall in _rounded(other)) > least:
+        if max(value_of(turned, with_run(other, 0, Run((wall,)))) for wall in _rounded(other)) > least:
             found = improved(turned, other, together, lofts=lofts)
             if best is model:
                 best = fit_density(points, model)
@@ -98,8 +99,3 @@ def _rounded(model: ExactModel) -> Iterator[Wall]:
         for prisms in map(list, fillets(wall.outline)):
             yield replace(wall, outline=prisms[0].outline)
             yield from prisms
-
-
-def _with(model: ExactModel, wall: Wall) -> ExactModel:
-    stack = Stack(model.stack.breaks, (Run((wall,)),))
-    return replace(model_of(stack, model.sigma, model.density, model.stray, model.space), core=model.core)

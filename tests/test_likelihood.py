@@ -84,7 +84,7 @@ WALLS: dict[str, Wall] = {
         *BREAKS.tolist(),
     ),
     "square to round": Ruled(
-        Rectangle(CENTRE, 0.6, 0.4, 0.3), DividedCircle(ORIGIN, 0.25, 1.0, -0.1, 4), *BREAKS.tolist()
+        Rectangle(CENTRE, 0.6, 0.4, 0.3), DividedCircle(ORIGIN, 0.25, 1.0, -0.1), *BREAKS.tolist()
     ),
 }
 each = pytest.mark.parametrize("name", WALLS)

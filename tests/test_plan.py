@@ -81,8 +81,8 @@ WALLS: list[Wall] = [
     Filleted(RoundedRectangle(CENTRE, 0.4, 0.3, 0.4, 0.05), None, "bottom", -0.3, 0.3),
     Filleted(Rectangle(CENTRE, 0.4, 0.3, 0.4), 0.05, "both", -0.3, 0.3),
     Ruled(Polygon(ELL), LineArc(0.8 * ELL, BULGES, BULGES != 0), -0.3, 0.3),
-    Ruled(Rectangle(CENTRE, 0.4, 0.3, 0.4), DividedCircle(CENTRE, 0.15, 1.1, -0.1, 4), -0.3, 0.3),
-    Ruled(DividedCircle(CENTRE, 0.15, 1.1, -0.1, 4), Rectangle(CENTRE, 0.4, 0.3, 0.4), -0.3, 0.3),
+    Ruled(Rectangle(CENTRE, 0.4, 0.3, 0.4), DividedCircle(CENTRE, 0.15, 1.1, -0.1), -0.3, 0.3),
+    Ruled(DividedCircle(CENTRE, 0.15, 1.1, -0.1), Rectangle(CENTRE, 0.4, 0.3, 0.4), -0.3, 0.3),
     *(Swept(outline, 0.1, np.zeros(2), np.zeros(2)) for outline in OUTLINES),
     *(
         Swept(

@@ -30,8 +30,8 @@ def prism(outline: Outline, twist: float = 0.0) -> Swept:
 SQUARE = Rectangle(ORIGIN, 6.0, 6.0, 0.3)
 ROUNDED = RoundedRectangle(ORIGIN, 6.0, 4.0, 0.2, 0.9)
 WALLS: dict[str, tuple[Wall, float]] = {
-    "square to round": (Ruled(SQUARE, DividedCircle(ORIGIN, 2.6, 0.3 + np.pi / 4, 0.0, 4), 0.0, 6.0), 6.0),
-    "round to square": (Ruled(DividedCircle(ORIGIN, 2.0, 0.3 + np.pi / 4, 0.0, 4), SQUARE, 0.0, 6.0), 6.0),
+    "square to round": (Ruled(SQUARE, DividedCircle(ORIGIN, 2.6, 0.3 + np.pi / 4, 0.0), 0.0, 6.0), 6.0),
+    "round to square": (Ruled(DividedCircle(ORIGIN, 2.0, 0.3 + np.pi / 4, 0.0), SQUARE, 0.0, 6.0), 6.0),
     "edges rounded": (prism(ROUNDED), 5.0),
     "all edges rounded": (
         Filleted(RoundedRectangle(ORIGIN, 6.0, 4.0, 0.2, 0.9), None, "both", 0.0, 5.0),

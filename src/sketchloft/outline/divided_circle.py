@@ -13,9 +13,15 @@ from sketchloft.outline.chain_outline import ChainOutline
 __all__ = ["DividedCircle"]
 
 
+QUARTERS = np.pi / 2 * np.arange(4)
+SIGNS = np.array([1.0, -1.0, 1.0, -1.0])
+MOST = 0.9 * np.pi / 4
+"""Largest stagger: at a quarter of pi two cuts would meet."""
+
+
 @dataclass(frozen=True)
 class DividedCircle(ChainOutline):
-    """A circle of arcs that are even, or long and short by turns.
+    """A circle of four arcs, long and short by turns.
 
     Parameters
     ----------
@@ -25,9 +31,7 @@ class DividedCircle(ChainOutline):
     angle : float
         Of the first cut from x, in radians, were all arcs even.
     stagger : float
-        By how much the first and every second cut are turned on from that, and the others back.
-    arcs : int
-        How many; fixed. Of four the stagger is a parameter.
+        By how much the first and the third cut are turned on from that, and the others back.
     """
 
     kind: ClassVar[str] = "divided circle"
@@ -36,19 +40,16 @@ class DividedCircle(ChainOutline):
     radius: float
     angle: float
     stagger: float
-    arcs: int
 
     @property
     def vector(self) -> Floats:
-        """Centre, radius, angle, and of four arcs the stagger."""
-        free = [self.stagger] if self.arcs == 4 else []
-        return np.array([*self.centre, self.radius, self.angle, *free])
+        """Centre, radius, angle, stagger: (5,)."""
+        return np.array([*self.centre, self.radius, self.angle, self.stagger])
 
     def moved(self, vector: Floats) -> Self:
         """Return the circle with other parameters; of the radius the size counts."""
-        radius, angle, *free = vector[2:].tolist()
-        most = 0.9 * np.pi / self.arcs
-        stagger = float(np.clip(free[0], -most, most)) if free else self.stagger
+        radius, angle, stagger = vector[2:].tolist()
+        stagger = float(np.clip(stagger, -MOST, MOST))
         return replace(self, centre=vector[:2].copy(), radius=abs(radius), angle=angle, stagger=stagger)
 
     def chain(self) -> tuple[Floats, Floats]:
@@ -57,26 +58,19 @@ class DividedCircle(ChainOutline):
 
     def by_vector(self, gradient: Floats) -> Floats:
         """Apply the derivative of the cuts and the bulges."""
-        spokes, sign = self._spokes, self._signs
+        spokes = self._spokes
         around = self.radius * np.column_stack([-spokes[:, 1], spokes[:, 0]])
-        count = self.arcs
-        moves = np.zeros((3 * count, len(self.vector)))
-        columns = [np.broadcast_to(axis, spokes.shape) for axis in np.eye(2)]
-        columns += [spokes, around, *([sign[:, None] * around] if count == 4 else [])]
-        moves[: 2 * count] = np.stack(columns, axis=2).reshape(2 * count, -1)
-        if count == 4:
-            moves[2 * count :, 4] = -sign / 2 / np.cos(self._sweeps / 4) ** 2
-        return gradient @ moves
-
-    @property
-    def _signs(self) -> Floats:
-        return np.where(np.arange(self.arcs) % 2 == 0, 1.0, -1.0)
+        x, y = (np.broadcast_to(axis, spokes.shape) for axis in np.eye(2))
+        cuts = np.stack([x, y, spokes, around, SIGNS[:, None] * around], axis=2).reshape(8, 5)
+        bulges = np.zeros((4, 5))
+        bulges[:, 4] = -SIGNS / 2 / np.cos(self._sweeps / 4) ** 2
+        return gradient @ np.concatenate([cuts, bulges])
 
     @property
     def _spokes(self) -> Floats:
-        turn = self.angle + 2 * np.pi * np.arange(self.arcs) / self.arcs + self.stagger * self._signs
+        turn = self.angle + QUARTERS + self.stagger * SIGNS
         return np.column_stack([np.cos(turn), np.sin(turn)])
 
     @property
     def _sweeps(self) -> Floats:
-        return 2 * np.pi / self.arcs - 2 * self.stagger * self._signs
+        return np.pi / 2 - 2 * self.stagger * SIGNS

@@ -155,7 +155,7 @@ def _square_and_round(*, up: bool) -> Form:
     """A rectangle and a circle of four arcs, the circle above or below."""
     square = form(Rectangle, replace(CENTRE, name="square_centre"), *SIDES[1:])
     circle = form(
-        _four_arcs,
+        DividedCircle,
         replace(CENTRE, name="round_centre"),
         RADIUS,
         Number("first_cut", "angle", "angle"),
@@ -172,10 +172,6 @@ def _square_and_round(*, up: bool) -> Form:
 
     ends = (square.fields, circle.fields)
     return Form(sum(ends if up else ends[::-1], ()), read, make)
-
-
-def _four_arcs(centre: Floats, radius: float, angle: float, stagger: float) -> DividedCircle:
-    return DividedCircle(centre, radius, angle, stagger, 4)
 
 
 def _filleted() -> Form:

@@ -16,8 +16,6 @@ __all__ = ["Revolved", "radius_at", "sizes"]
 
 GAUSS = np.polynomial.legendre.leggauss(8)
 SPAN_GAUSS = np.polynomial.legendre.leggauss(4)
-
-
 TINY = 1e-12
 
 

@@ -54,7 +54,7 @@ def _square_and_round(points: Floats) -> tuple[Rectangle, DividedCircle]:
     spokes = points - points.mean(axis=0)
     ring = points[np.argsort(np.arctan2(spokes[:, 1], spokes[:, 0]))]
     circle = circle_of(ring)
-    return rectangle_of(ring), DividedCircle(circle.centre, circle.radius, 0.0, 0.0, 4)
+    return rectangle_of(ring), DividedCircle(circle.centre, circle.radius, 0.0, 0.0)
 
 
 def _turned(circle: DividedCircle, square: Rectangle) -> DividedCircle:

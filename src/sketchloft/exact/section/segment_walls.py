@@ -59,7 +59,7 @@ def segment_run(
         Whether a few kinds of sections will do.
     """
     plan = plan_view(points, clump(together))
-    twist = twist_of(plan, points[:, 2] - plan.height)
+    twist = twist_of(plan, points[:, 2] - plan.height, clump(together))
     if twist:
         plan = untwisted(plan, points[:, 2] - plan.height, twist)
     shape = recognise_section(plan.points, together, rough=rough)

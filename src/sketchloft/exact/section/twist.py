@@ -17,12 +17,12 @@ MOST_TURN = 2.5
 TURNS = 101
 CLEAR = 8.0
 """Standard deviations above chance that a turning moment must have."""
-BETTER = 1.25
-"""How much larger than the moment that does not turn it must be."""
+GAIN = 60.0
+"""Squared deviations by which it must be above the moment that does not turn."""
 MOST_POINTS = 3000
 
 
-def twist_of(plan: PlanView, heights: Floats) -> float:
+def twist_of(plan: PlanView, heights: Floats, together: float = 1.0) -> float:
     """Turn per height, in radians, at which the section's outline is sharpest; 0 where it does not turn.
 
     Parameters
@@ -30,6 +30,8 @@ def twist_of(plan: PlanView, heights: Floats) -> float:
     plan : PlanView
     heights : (n,) float array
         Of its points, relative to the plan's.
+    together : float
+        How many of the points go together.
 
     Notes
     -----
@@ -42,7 +44,9 @@ def twist_of(plan: PlanView, heights: Floats) -> float:
     z = heights[::step]
     length = float(np.ptp(z))
     turns = np.linspace(-MOST_TURN, MOST_TURN, TURNS) / length
-    best, still, twist = CLEAR, 0.0, 0.0
+    together = max(together / step, 1.0)
+    clear = CLEAR * float(np.sqrt(together))
+    best, still, twist = clear, 0.0, 0.0
     for fold in FOLDS:
         power = spokes**fold
         chance = float(np.sqrt((np.abs(power) ** 2).sum()))
@@ -50,7 +54,7 @@ def twist_of(plan: PlanView, heights: Floats) -> float:
         top = int(np.argmax(peaks))
         if peaks[top] > best:
             best, still, twist = float(peaks[top]), float(peaks[TURNS // 2]), float(turns[top])
-    return twist if best > CLEAR and best > BETTER * still else 0.0
+    return twist if best > clear and best**2 - still**2 > GAIN * together else 0.0
 
 
 def untwisted(plan: PlanView, heights: Floats, twist: float) -> PlanView:

@@ -16,7 +16,7 @@ __all__ = ["started"]
 
 CLOSE = 0.03
 """Log likelihood per point by which a direction may be behind the best and yet have the better stack, where
-no points go together."""
+no points go together; one that is behind for want of symmetry only is looked at whatever its distance."""
 SAME = 0.9994
 """Cosine of the angle within which the fit of a first stack finds the same direction."""
 CONTENDERS = 2
@@ -78,9 +78,14 @@ def started(
 def _contenders(points: Floats, first: Start, candidates: Candidates, params: SegmentsParams) -> list[Start]:
     """First stacks along the directions next to the best, until one is plain."""
     found: list[Start] = []
-    for k in _unlike(candidates)[: CONTENDERS + 1][1:]:
-        behind = candidates[k].value < candidates[0].value - CLOSE
-        if behind or max([first, *found], key=_value).plain:
+    best = candidates[0] if candidates else None
+    close = [
+        k
+        for k in _unlike(candidates)[1:]
+        if best and (candidates[k].value > best.value - CLOSE or candidates[k].likelihood > best.likelihood)
+    ]
+    for k in close[:CONTENDERS]:
+        if max([first, *found], key=_value).plain:
             break
         found.append(start_along(points, candidates[k].vector, _led_by(candidates, k), params))
     return found

@@ -28,6 +28,8 @@ NARROW = 0.12
 """Sine of the angle within which a normal lies across or along a direction, or meets the axis."""
 APART = 0.94
 """Cosine of the angle within which two candidates are one."""
+RING = 0.85
+"""Cosine of the angle up to which flat walls stand out from what is around them."""
 BINS = 56
 SHORTEST = 4
 PRICE = 60.0
@@ -48,13 +50,16 @@ class Candidate:
     ----------
     vector : (3,) float array
     value : float
-        Log likelihood per point (`rule_likelihood`), and a little more for a direction of symmetry.
+        Log likelihood per point, and a little more for a direction of symmetry.
+    likelihood : float
+        Log likelihood per point (`rule_likelihood`).
     source : str
         Why it is a candidate: "extrusion", "revolution", "caps" or "principal".
     """
 
     vector: Floats
     value: float
+    likelihood: float
     source: str
 
 
@@ -87,7 +92,7 @@ def exact_direction(
     scores = {
         "extrusion": _extrusion(sphere, normals),
         "revolution": _revolution(sphere, at, normals),
-        "caps": _caps(sphere, normals),
+        "caps": _standing_out(sphere, _caps(sphere, normals)),
     }
     found = [(axis, "principal") for axis in np.linalg.eigh(points.T @ points)[1].T]
     for source, score in scores.items():
@@ -104,7 +109,10 @@ def exact_direction(
         if start.value < candidates[0].value - CONTENDER:
             break
         others = [judge(refine(start.vector, at, normals), start.source) for refine in REFINE.values()]
-        candidates[i] = _refined(max([start, *others], key=lambda other: other.value), judge)
+        best = max([start, *others], key=lambda other: other.value)
+        candidates[i] = _refined(best, judge)
+        if abs(float(best.vector @ start.vector)) < APART:
+            candidates.append(_refined(start, judge))
     candidates.sort(key=lambda candidate: -candidate.value)
     return tuple(candidates)
 
@@ -122,11 +130,11 @@ class _Judge:
     def __call__(self, vector: Floats, source: str) -> Candidate:
         """Favour what is revolved or extruded as a whole: of equals it has the simplest sections."""
         frame = frame_along(vector, self.points)
-        value = rule_likelihood(frame.to_local(self.points), self.params, self.together)
+        likelihood = rule_likelihood(frame.to_local(self.points), self.params, self.together)
         along = frame.direction[None]
         revolved = float(_revolution(along, self.at, self.normals)[0])
         share = max(revolved, float(_extrusion(along, self.normals)[0]))
-        return Candidate(frame.direction, value + SYMMETRY * share, source)
+        return Candidate(frame.direction, likelihood + SYMMETRY * share, likelihood, source)
 
 
 def _refined(candidate: Candidate, judge: _Judge) -> Candidate:
@@ -183,6 +191,13 @@ def _revolution(directions: Floats, at: Floats, normals: Floats) -> Floats:
 def _caps(directions: Floats, normals: Floats) -> Floats:
     """Share of the wall that lies flat across each direction."""
     return np.asarray(_soft(1 - np.abs(directions @ normals.T), 0.02).mean(axis=1))
+
+
+def _standing_out(directions: Floats, score: Floats) -> Floats:
+    """By how much scores are above the highest in a ring around each: curved walls are flat to all sides."""
+    near = np.abs(directions @ directions.T)
+    around = np.where((near > RING) & (near < APART), score, -np.inf)
+    return np.asarray(score - around.max(axis=1))
 
 
 def _soft(sine: Floats, width: float = NARROW) -> Floats:

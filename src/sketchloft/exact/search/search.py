@@ -103,7 +103,7 @@ def _found(start: Start, *, tilt: bool, lofts: bool, progress: Callable[[str], N
         model, turn = upright(sample, model, together)
     model = improved(sample @ turn, model, together, lofts=lofts)
     if tilt:
-        model, rotation = upended(sample @ turn, model, together, lofts=lofts)
+        model, rotation = upended(sample @ turn, start.merged, model, together, lofts=lofts)
         turn = turn @ rotation
         model, rotation = upright(sample @ turn, model, together)
         turn = turn @ rotation

@@ -30,8 +30,22 @@ HINT = 0.5
 """Log likelihood of independent points that fillets of a given size must gain for others to be tried."""
 
 
-def upended(points: Floats, model: ExactModel, together: float, *, lofts: bool) -> tuple[ExactModel, Floats]:
+def upended(
+    points: Floats, first: ExactModel, model: ExactModel, together: float, *, lofts: bool
+) -> tuple[ExactModel, Floats]:
     """Stand a box on another face where fillets that are seen from there explain more.
+
+    Parameters
+    ----------
+    points : (n, 3) float array
+    first : ExactModel
+        What the search began with: where that is a box and the model is none any more, it may be that its
+        fillets were taken for runs.
+    model : ExactModel
+    together : float
+        How many of the points go together.
+    lofts : bool
+        Whether free lofts are tried.
 
     Returns
     -------
@@ -45,7 +59,7 @@ def upended(points: Floats, model: ExactModel, together: float, *, lofts: bool) 
     those along one edge, or around one face, are rounded corners or ends of a prism along that edge only.
     """
     best, turn = model, np.eye(3)
-    for other, rotation in _stood_otherwise(points, model):
+    for other, rotation in _stood_otherwise(points, model) or _stood_otherwise(points, first):
         turned = points @ rotation
         least = value_of(turned, other) + HINT * together
         if max(value_of(turned, with_run(other, 0, Run((wall,)))) for wall in _rounded(other)) > least:

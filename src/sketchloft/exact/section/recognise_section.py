@@ -24,7 +24,7 @@ from sketchloft.outline.candidates import (
 from sketchloft.outline.circle import Circle
 from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.outline import Arc, Outline
-from sketchloft.outline.placed_polygons import Rectangle
+from sketchloft.outline.placed_polygons import Rectangle, RoundedRectangle
 from sketchloft.outline.polygons import LineArc, Polygon, corner_areas
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import SplineLoop
@@ -49,8 +49,8 @@ ENOUGH = 0.05
 """Evidence that a step gains for there to be another."""
 COMMON = (Circle, Ellipse, Rectangle)
 RARE = 6.0
-"""Log odds against other outlines of up to six edges, of which there are more to be taken for one by chance;
-one more for each further line, two for each arc."""
+"""Log odds against other outlines of up to six edges, and against a rectangle with one radius, of which there
+are more to be taken for one by chance; one more for each further line, two for each arc."""
 LAST = 12.0
 """Log odds against splines, which are drawn for want of anything else."""
 LATTICE = 40
@@ -100,6 +100,8 @@ def rarity(outline: Outline) -> float:
     """Log odds against an outline before the points are seen."""
     if isinstance(outline, SplineLoop):
         return LAST
+    if isinstance(outline, RoundedRectangle):
+        return RARE
     edges = sum(2.0 if isinstance(edge, Arc) else 1.0 for edge in outline.edges())
     return 0.0 if isinstance(outline, COMMON) else max(RARE, edges)
 

@@ -22,7 +22,7 @@ from sketchloft.wall.profile import Profile, SplineProfile
 from sketchloft.wall.revolved import Revolved, radius_at, sizes
 from sketchloft.wall.swept import Freedom, Swept
 
-__all__ = ["merges", "splits", "swaps"]
+__all__ = ["fillings", "merges", "splits", "swaps"]
 
 PIECE = 8.0
 """What a piece of a profile must gain for there to be more than three, in squared deviations."""
@@ -30,6 +30,8 @@ MOST_PIECES = 6
 SHORTEST = 4
 """Radii that each part has at least."""
 TINY = 1e-12
+HOLE = 12.0
+"""What a hole must gain: strokes leave many places empty by chance."""
 
 
 def merges(model: ExactModel) -> Iterator[Change]:
@@ -134,6 +136,14 @@ def swaps(model: ExactModel) -> Iterator[Change]:
                 changed = with_run(model, j, Run(walls, run.holes))
                 handicap = -FREE_GAIN if free else max(_rarity(other) - _rarity(wall), 0.0)
                 yield Change(changed, range(j, j + 1), handicap, nested, free)
+
+
+def fillings(model: ExactModel) -> Iterator[Change]:
+    """Runs without one of their holes."""
+    for j, run in enumerate(model.stack.runs):
+        for i in range(len(run.walls) - run.holes, len(run.walls)):
+            filled = Run((*run.walls[:i], *run.walls[i + 1 :]), run.holes - 1)
+            yield Change(with_run(model, j, filled), range(j, j + 1), -HOLE)
 
 
 def _rarity(wall: Wall) -> float:

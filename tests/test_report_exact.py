@@ -229,7 +229,8 @@ def test_several_bodies_and_strays(lamp: Reconstruction, tube: Reconstruction, t
 
 def test_compared_directions_are_listed(lamp_body: ExactBody) -> None:
     tried = tuple(
-        Candidate(axis, value, "principal") for axis, value in zip(np.eye(3)[::-1], (1.5, 1, 0), strict=True)
+        Candidate(axis, value, value, "principal")
+        for axis, value in zip(np.eye(3)[::-1], (1.5, 1, 0), strict=True)
     )
     said = "".join(exact_directions(replace(lamp_body, candidates=tried)))
     assert "Of 3 directions" in said

@@ -30,8 +30,9 @@ SIMPLEST = 10
 """Parameters of a ruled wall at least: those of a rectangle and a circle."""
 CLEAR = 0.0042
 """Noise, as a share of the size, up to which the walls of a cloud of strokes are looked at for a misfit."""
-HOPE = 8.0
-"""How much more a loft may gain than the misfit shows, which counts points where walls weigh them."""
+HOPE = 6.0, 10.0
+"""How much more a ruled wall and a loft may gain than the misfit shows, which counts points where walls weigh
+them."""
 LOFTS = (((12, 2), (12, 4), (18, 4), (24, 6)), ((16, 1), (24, 1), (24, 3)))
 """Poles around and spans along of the free lofts that are tried, each list as long as it pays."""
 
@@ -67,9 +68,9 @@ def ruled(points: Floats, model: ExactModel, together: float) -> ExactModel:
             continue
         # Strokes lie too unevenly beside the walls for a misfit to show; that they are blurred does.
         blurred = together > 1 and model.sigma > CLEAR
-        more = max(SIMPLEST - sum(len(wall.vector) for wall in walls), 0)
-        least = GAIN + price(more, len(points), together)
-        if not blurred and HOPE * misfit(points, model, chain, together) <= least:
+        more = SIMPLEST - sum(len(wall.vector) for wall in walls)
+        least = GAIN + price(more, len(points), together) - _fewer(chain, len(points), together)
+        if not blurred and HOPE[0] * misfit(points, model, chain, together) <= least:
             continue
         ends = float(model.stack.breaks[chain.start]), float(model.stack.breaks[chain.stop])
         found: list[tuple[float, ExactModel]] = []
@@ -115,7 +116,13 @@ def _promising(points: Floats, model: ExactModel, runs: range, together: float) 
     around, spans = LOFTS[0][0]
     held = sum(len(wall.vector) for j in runs for wall in model.stack.runs[j].walls)
     more = around * (spans + Lofted.degree) - held
-    return HOPE * misfit(points, model, runs, together) > CHEAP * more + GAIN
+    fewer = _fewer(runs, len(points), together)
+    return HOPE[1] * misfit(points, model, runs, together) > CHEAP * more + GAIN - fewer
+
+
+def _fewer(runs: range, count: int, together: float) -> float:
+    """What one run in the place of some saves (`worth`)."""
+    return (len(runs) - 1) * float(np.log(count / together))
 
 
 def _smooth(model: ExactModel, k: int) -> bool:

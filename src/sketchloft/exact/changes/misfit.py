@@ -1,4 +1,4 @@
-"""Misfit: how far a run's walls are from where the points end, patch by patch, as a likelihood."""
+"""Misfit: how far a run's walls are from where the points end, in waves over them, as a likelihood."""
 
 from __future__ import annotations
 
@@ -16,7 +16,13 @@ __all__ = ["misfit"]
 AROUND = 16
 ALONG = 8
 NODES = 600
-BANDS = (2.0, 4.0, 8.0, 16.0)
+WAVES = 6
+"""Waves around that are looked at; finer ones are chance more often than shape."""
+BOWS = 4
+"""Cosines along that are looked at."""
+CHANCE = 2.0
+"""Standard deviations of the misfit of right walls that are left out of account."""
+BANDS = (2.0, 4.0)
 """Half the widths of the bands that are counted, in noise deviations."""
 WIDEST = 0.1
 """Half the width of a band at most, as a share of the size of the section."""
@@ -37,8 +43,10 @@ def misfit(points: Floats, model: ExactModel, runs: range, together: float) -> f
 
     Notes
     -----
-    Of a band around the right wall one half is filled, whatever the noise. The squared lack or excess of
-    points in each patch of the band, over its expectation, is a chi square; the band that shows most counts.
+    Of a band around the right wall one half is filled, whatever the noise. The lack or excess of points in
+    each patch of the band, over the root of its expectation, varies by 1 by chance, and so does each wave
+    that the patches are a sum of. What the slow waves vary by beyond chance tells of walls that are wrong;
+    the band that shows most counts.
     """
     breaks = model.stack.breaks
     total = np.zeros(len(BANDS))
@@ -59,8 +67,20 @@ def misfit(points: Floats, model: ExactModel, runs: range, together: float) -> f
             for k, width in enumerate(widths):
                 found = np.bincount(patch[away < width], minlength=AROUND * ALONG)
                 expected = np.maximum(per_width * width, FEWEST)
-                total[k] += float(((found - expected) ** 2 / expected - together).sum()) / 2
-    return float(total.max()) / together
+                total[k] += _beyond_chance((found - expected) / np.sqrt(expected * together))
+    return max(float(total.max()), 0.0)
+
+
+def _beyond_chance(patches: Floats) -> float:
+    """Log likelihood that the slow waves of patches gain, whose deviations are 1 by chance."""
+    table = patches.reshape(ALONG, AROUND)
+    middles = (np.arange(ALONG) + 0.5) * np.pi / ALONG
+    cosines = np.cos(np.arange(BOWS)[:, None] * middles) * np.sqrt(2 / ALONG)
+    cosines[0] /= np.sqrt(2)
+    waves = np.abs(np.fft.rfft(cosines @ table, norm="ortho")[:, : WAVES + 1]) ** 2
+    count = BOWS * (1 + 2 * WAVES)
+    power = float(waves[:, 0].sum() + 2 * waves[:, 1:].sum())
+    return (power - count - CHANCE * np.sqrt(2 * count)) / 2
 
 
 @dataclass(frozen=True)

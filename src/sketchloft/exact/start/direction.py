@@ -111,7 +111,7 @@ def exact_direction(
         others = [judge(refine(start.vector, at, normals), start.source) for refine in REFINE.values()]
         best = max([start, *others], key=lambda other: other.value)
         candidates[i] = _refined(best, judge)
-        if abs(float(best.vector @ start.vector)) < APART:
+        if abs(float(best.vector @ start.vector)) < SAME:
             candidates.append(_refined(start, judge))
     candidates.sort(key=lambda candidate: -candidate.value)
     return tuple(candidates)

@@ -13,7 +13,7 @@ from sketchloft.exact.changes.section_radii import SectionRadii, piece_costs, se
 from sketchloft.exact.changes.simpler_walls import profiles_like, walls_like
 from sketchloft.exact.changes.trial import FREE_GAIN, Change, free_gain
 from sketchloft.exact.model.exact_model import ExactModel
-from sketchloft.exact.model.joins import sole_profile
+from sketchloft.exact.model.joins import end_pole, natural_joins, sole_profile
 from sketchloft.exact.model.surgery import with_run, with_runs, with_split, without_run
 from sketchloft.exact.section.recognise_section import rarity
 from sketchloft.intervals import cheapest_chain
@@ -22,7 +22,7 @@ from sketchloft.wall.profile import Profile, SplineProfile
 from sketchloft.wall.revolved import Revolved, radius_at, sizes
 from sketchloft.wall.swept import Freedom, Swept
 
-__all__ = ["fillings", "merges", "splits", "swaps"]
+__all__ = ["closings", "fillings", "merges", "splits", "swaps"]
 
 PIECE = 8.0
 """What a piece of a profile must gain for there to be more than three, in squared deviations."""
@@ -32,6 +32,10 @@ SHORTEST = 4
 TINY = 1e-12
 HOLE = 12.0
 """What a hole must gain: strokes leave many places empty by chance."""
+TIP = 0.1
+"""Height, in sizes of the cloud, of the tip that a flat end may lack to be taken for a pole."""
+FLAT = 6.0
+"""What a flat end must gain over a pole."""
 
 
 def merges(model: ExactModel) -> Iterator[Change]:
@@ -144,6 +148,18 @@ def fillings(model: ExactModel) -> Iterator[Change]:
         for i in range(len(run.walls) - run.holes, len(run.walls)):
             filled = Run((*run.walls[:i], *run.walls[i + 1 :]), run.holes - 1)
             yield Change(with_run(model, j, filled), range(j, j + 1), -HOLE)
+
+
+def closings(model: ExactModel) -> Iterator[Change]:
+    """Spheres and domes that end flat a little before their pole, with the pole."""
+    runs, breaks = model.stack.runs, model.stack.breaks
+    for k, j, side in ((0, 0, -1), (len(runs), len(runs) - 1, 1)):
+        pole = end_pole(runs[j], side)
+        if model.joins[k] == "step" and pole is not None and 0 < side * (pole - breaks[k]) < TIP:
+            moved = breaks.copy()
+            moved[k] = pole
+            closed = natural_joins(model.moved(model.vector, moved))
+            yield Change(closed, range(j, j + 1), -FLAT)
 
 
 def _rarity(wall: Wall) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 from sketchloft.cloud import Floats
-from sketchloft.exact.changes.changes import fillings, merges, splits, swaps
+from sketchloft.exact.changes.changes import closings, fillings, merges, splits, swaps
 from sketchloft.exact.changes.filleted_walls import filleted
 from sketchloft.exact.changes.free_profiles import splined
 from sketchloft.exact.changes.free_walls import lofted, ruled
@@ -72,6 +72,7 @@ def _changed(points: Floats, model: ExactModel, together: float, *, lofts: bool)
         before = model
         model = _through(points, model, together, merges, failed, again=True)
         model = _through(points, model, together, fillings, failed)
+        model = _through(points, model, together, closings, failed)
         model = splined(points, model, together)
         model = _through(points, model, together, lambda m: splits(points, m, together), failed)
         model = _through(points, model, together, swaps, failed)

@@ -46,7 +46,7 @@ def misfit(points: Floats, model: ExactModel, runs: range, together: float) -> f
     Of a band around the right wall one half is filled, whatever the noise. The lack or excess of points in
     each patch of the band, over the root of its expectation, varies by 1 by chance, and so does each wave
     that the patches are a sum of. What the slow waves vary by beyond chance tells of walls that are wrong;
-    the band that shows most counts.
+    the band that shows most counts. Their mean does not count: more noise than there is moves walls inwards.
     """
     breaks = model.stack.breaks
     total = np.zeros(len(BANDS))
@@ -78,8 +78,8 @@ def _beyond_chance(patches: Floats) -> float:
     cosines = np.cos(np.arange(BOWS)[:, None] * middles) * np.sqrt(2 / ALONG)
     cosines[0] /= np.sqrt(2)
     waves = np.abs(np.fft.rfft(cosines @ table, norm="ortho")[:, : WAVES + 1]) ** 2
-    count = BOWS * (1 + 2 * WAVES)
-    power = float(waves[:, 0].sum() + 2 * waves[:, 1:].sum())
+    count = BOWS * (1 + 2 * WAVES) - 1
+    power = float(waves[1:, 0].sum() + 2 * waves[:, 1:].sum())
     return (power - count - CHANCE * np.sqrt(2 * count)) / 2
 
 

@@ -13,7 +13,7 @@ from sketchloft.wall.profile import ArcProfile
 from sketchloft.wall.revolved import Revolved, radius_at
 from sketchloft.wall.swept import Swept
 
-__all__ = ["crossing", "joined", "natural_joins", "poles", "sole_profile"]
+__all__ = ["crossing", "end_pole", "joined", "natural_joins", "poles", "sole_profile"]
 
 CLOSE = 4.0
 """Walls that come this near to each other at a break, or to the axis at an end, in noise deviations, meet."""
@@ -38,7 +38,7 @@ def natural_joins(model: ExactModel) -> ExactModel:
     for k in range(1, len(runs)):
         joins[k] = _natural(runs[k - 1], runs[k], float(breaks[k]), near)
     for k, run, side in ((0, runs[0], -1), (len(runs), runs[-1], 1)):
-        pole = _pole(run, side)
+        pole = end_pole(run, side)
         if pole is not None and side * (pole - breaks[k]) < near:
             joins[k] = "pole"
     return joined(replace(model, joins=tuple(joins)))
@@ -64,7 +64,7 @@ def _natural(below: Run, above: Run, height: float, near: float) -> Join:
 def _height(model: ExactModel, k: int, join: str) -> float | None:
     runs = model.stack.runs
     if join == "pole":
-        return _pole(runs[0], -1) if k == 0 else _pole(runs[-1], 1)
+        return end_pole(runs[0], -1) if k == 0 else end_pole(runs[-1], 1)
     if join == "tangent":
         for run in (runs[k - 1], runs[k]):
             wall = sole_profile(run)
@@ -85,8 +85,15 @@ def poles(wall: Wall) -> tuple[float, float]:
     return -np.inf, np.inf
 
 
-def _pole(run: Run, side: int) -> float | None:
-    """Where the wall of a run, if it has one only, meets its axis as a sphere or a dome does."""
+def end_pole(run: Run, side: int) -> float | None:
+    """Height at which the wall of a run, if it has one only, meets its axis as a sphere or a dome does.
+
+    Parameters
+    ----------
+    run : Run
+    side : {-1, 1}
+        Below or above.
+    """
     pole = poles(run.walls[0])[side > 0]
     return pole if len(run.walls) == 1 and np.isfinite(pole) else None
 

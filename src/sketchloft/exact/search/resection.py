@@ -5,11 +5,17 @@ from __future__ import annotations
 import numpy as np
 
 from sketchloft.cloud import Floats
+from sketchloft.exact.changes.misfit import misfit
 from sketchloft.exact.changes.trial import Change, tried
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.surgery import with_run
+from sketchloft.exact.section.recognise_section import COMMON
 from sketchloft.exact.section.segment_walls import segment_run
 from sketchloft.exact.start.first_stack import FEWEST
+from sketchloft.stack import Wall
+from sketchloft.wall.profile import SplineProfile
+from sketchloft.wall.revolved import Revolved
+from sketchloft.wall.swept import Swept
 
 __all__ = ["resectioned"]
 
@@ -36,7 +42,8 @@ def resectioned(
         Cosine of the angle between the direction then and now.
     """
     for j in range(len(model.stack.runs)):
-        change = _change(points, model, j, together) if _moved(model, j, cuts, upright) else None
+        again = _moved(model, j, cuts, upright) and not _settled(points, model, j, together)
+        change = _change(points, model, j, together) if again else None
         if change is not None:
             model = tried(points, model, change, together) or model
     return model
@@ -47,6 +54,22 @@ def _moved(model: ExactModel, j: int, cuts: Floats, upright: float) -> bool:
     low, high = model.stack.breaks[[j, j + 1]].tolist()
     leaning = (high - low) * float(np.sqrt(max(1 - upright**2, 0.0)))
     return max(leaning, *(float(np.abs(cuts - z).min()) for z in (low, high))) >= MOVED * model.sigma
+
+
+def _settled(points: Floats, model: ExactModel, j: int, together: float) -> bool:
+    """Whether there is nothing simpler than the walls of a run, and the points have nothing against them."""
+    walls = model.stack.runs[j].walls
+    return (
+        together == 1
+        and all(_plain(wall) for wall in walls)
+        and misfit(points, model, range(j, j + 1), together) == 0
+    )
+
+
+def _plain(wall: Wall) -> bool:
+    if isinstance(wall, Revolved):
+        return not isinstance(wall.profile, SplineProfile)
+    return isinstance(wall, Swept) and isinstance(wall.outline, COMMON)
 
 
 def _change(points: Floats, model: ExactModel, j: int, together: float) -> Change | None:

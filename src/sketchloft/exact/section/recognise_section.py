@@ -33,7 +33,7 @@ from sketchloft.shapes.spline import resampled
 from sketchloft.stack import Run, Stack
 from sketchloft.wall.swept import Swept
 
-__all__ = ["SectionShape", "rarity", "recognise_section"]
+__all__ = ["COMMON", "SectionShape", "rarity", "recognise_section"]
 
 MOST_POINTS = 3000
 BESIDE = 4.0
@@ -48,6 +48,7 @@ evidence, is given up."""
 ENOUGH = 0.05
 """Evidence that a step gains for there to be another."""
 COMMON = (Circle, Ellipse, Rectangle)
+"""Outlines that there is no simpler one for."""
 RARE = 6.0
 """Log odds against other outlines of up to six edges, and against a rectangle with one radius, of which there
 are more to be taken for one by chance; one more for each further line, two for each arc."""

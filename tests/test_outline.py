@@ -14,6 +14,7 @@ from sketchloft.outline.placed_polygons import Rectangle, RegularPolygon, Rounde
 from sketchloft.outline.polygons import LineArc, Polygon
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import SplineLoop, spline_loop
+from sketchloft.outline.star import Star, star_of
 from sketchloft.ring import ring_area, ring_depth
 from sketchloft.shapes.spline import ClosedSpline
 
@@ -39,6 +40,7 @@ OUTLINES: dict[str, Outline] = {
     "rounded rectangle": RoundedRectangle(CENTRE, 1.0, 2.0, 0.4, 0.2),
     "stadium": RoundedRectangle(CENTRE, 2.0, 1.0, 0.4, 0.5),
     "regular polygon": RegularPolygon(CENTRE, 1.0, 0.3, 5),
+    "star": Star(CENTRE, 1.0, 0.45, 0.3, 5),
     "circle of four even arcs": DividedCircle(CENTRE, 1.1, 0.3, 0.0),
     "circle of four arcs": DividedCircle(CENTRE, 1.1, 0.3, 0.2),
     "polygon": Polygon(ELL),
@@ -226,3 +228,14 @@ def test_inside_and_outside_of_any_chain(corners: list[tuple[float, float]], see
     assert np.abs(distance - expected).max() < 5e-3
     feet = points - distance[:, None] * normal
     assert np.abs(chain_foot(feet, vertices, bulges)[0]).max() < 1e-9
+
+
+def test_a_star_is_found_from_its_corners_and_an_l_is_none() -> None:
+    star = Star(CENTRE, 1.0, 0.45, 0.3, 5)
+    for first in (0, 1, 4):
+        found = star_of(np.roll(star.chain()[0], -first, axis=0))
+        assert found is not None
+        assert found.chain()[0][0] == pytest.approx(star.chain()[0][first + first % 2], abs=1e-9)
+        assert (found.radius, found.inner_radius) == pytest.approx((1.0, 0.45))
+    corners = np.array([[0, 0], [1, 0], [1, 0.4], [0.4, 0.4], [0.4, 1], [0, 1]])
+    assert star_of(corners) is None

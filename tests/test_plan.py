@@ -29,6 +29,7 @@ from sketchloft.outline.placed_polygons import Rectangle, RegularPolygon, Rounde
 from sketchloft.outline.polygons import LineArc, Polygon
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import spline_loop
+from sketchloft.outline.star import Star
 from sketchloft.pipeline import Params, reconstruct
 from sketchloft.plan.from_model import planned_from_model
 from sketchloft.plan.legend import LEGEND
@@ -64,6 +65,7 @@ OUTLINES: list[Outline] = [
     Rectangle(CENTRE, 0.4, 0.3, 0.4),
     RoundedRectangle(CENTRE, 0.4, 0.3, 0.4, 0.05),
     RegularPolygon(CENTRE, 0.3, 0.2, 6),
+    Star(CENTRE, 0.4, 0.2, 0.1, 5),
     Polygon(ELL),
     RoundedPolygon(ELL, 0.02),
     LineArc(ELL, np.array([0, 0.3, 0, -0.4, 0.2, 0]), np.array([0, 1, 0, 1, 1, 0], dtype=bool)),

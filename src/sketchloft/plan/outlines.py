@@ -9,6 +9,7 @@ from sketchloft.outline.placed_polygons import Rectangle, RegularPolygon, Rounde
 from sketchloft.outline.polygons import LineArc, Polygon
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import spline_loop
+from sketchloft.outline.star import Star
 from sketchloft.plan.field import Number
 from sketchloft.plan.form import Form, form
 
@@ -48,6 +49,14 @@ OUTLINES: dict[str, Form] = {
     "rounded rectangle": form(RoundedRectangle, *SIDES, CORNER_RADIUS),
     "regular polygon": form(
         RegularPolygon, CENTRE, RADIUS, ANGLE, Number("sides", "sides", "count", fitted="no", least=3)
+    ),
+    "star": form(
+        Star,
+        CENTRE,
+        RADIUS,
+        Number("inner_radius", "inner_radius", sign="positive"),
+        ANGLE,
+        Number("tips", "tips", "count", fitted="no", least=3),
     ),
     "polygon": form(Polygon, VERTICES),
     "rounded polygon": form(RoundedPolygon, VERTICES, CORNER_RADIUS),

@@ -14,6 +14,7 @@ from sketchloft.outline.outline import Outline
 from sketchloft.outline.placed_polygons import Rectangle, RegularPolygon, RoundedRectangle
 from sketchloft.outline.polygons import LineArc, Polygon
 from sketchloft.outline.rounded_polygon import RoundedPolygon
+from sketchloft.outline.star import Star
 from sketchloft.stack import Wall
 from sketchloft.wall.filleted import Filleted
 from sketchloft.wall.lofted import Lofted
@@ -135,9 +136,18 @@ def _outline(outline: Outline, size: float, turned: float) -> tuple[Dimension, .
         case RoundedRectangle(_, width, depth, angle, radius):
             fillets = Dimension("fillets", size * radius)
             return (*sides(width, depth), fillets, _turn(angle + turned, np.pi))
+    return _cornered(outline, size, turned)
+
+
+def _cornered(outline: Outline, size: float, turned: float) -> tuple[Dimension, ...]:
+    """Dimensions of an outline of many corners, alike or not."""
+    match outline:
         case RegularPolygon(_, radius, angle, corners):
             to_corners = Dimension("radius to the corners", size * radius)
             return (_count("corners", corners), to_corners, _turn(angle + turned, 2 * np.pi / corners))
+        case Star(_, radius, inner, angle, tips):
+            radii = (Dimension("radius to the tips", size * radius), Dimension("between", size * inner))
+            return (_count("tips", tips), *radii, _turn(angle + turned, 2 * np.pi / tips))
     return _free_outline(outline, size)
 
 

@@ -17,6 +17,7 @@ from sketchloft.outline.placed_polygons import Rectangle, RegularPolygon, Rounde
 from sketchloft.outline.polygons import LineArc, Polygon, corner_areas
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import SplineLoop
+from sketchloft.outline.star import Star, star_of
 from sketchloft.stack import Wall
 from sketchloft.wall.dome import taper_and_bow
 from sketchloft.wall.profile import ArcProfile, LineProfile, Profile, SplineProfile
@@ -123,8 +124,8 @@ def _outlines_like(outline: Outline) -> Iterator[Outline]:
         yield RoundedRectangle(outline.centre, *sides, outline.angle, ROUNDED * min(sides))
     if isinstance(outline, RoundedPolygon):
         yield Polygon(outline.vertices)
-    yield from _with_fewer_corners(outline)
-    if not isinstance(outline, (Rectangle, Circle)):
+    yield from _with_simpler_corners(outline)
+    if not isinstance(outline, (Rectangle, Circle, Star)):
         vertices = outline.vertices if isinstance(outline, (Polygon, RoundedPolygon)) else None
         polygon = None if vertices is None else Polygon(vertices)
         for other in polygons(ring, polygon, float(np.sqrt(outline.area)) * 0.05):
@@ -132,8 +133,11 @@ def _outlines_like(outline: Outline) -> Iterator[Outline]:
                 yield other
 
 
-def _with_fewer_corners(outline: Outline) -> Iterator[Outline]:
+def _with_simpler_corners(outline: Outline) -> Iterator[Outline]:
     if isinstance(outline, Polygon) and len(outline.vertices) > 3:
+        star = star_of(outline.vertices)
+        if star is not None:
+            yield star
         for k in _flattest(outline.vertices):
             yield Polygon(np.delete(outline.vertices, k, axis=0))
         for corner in _without_chamfers(outline.vertices):

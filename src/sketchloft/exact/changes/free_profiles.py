@@ -5,12 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from sketchloft.cloud import Floats
+from sketchloft.exact.changes.misfit import HOPE, misfit
 from sketchloft.exact.changes.profile_start import profile_start
-from sketchloft.exact.changes.trial import Change, free_gain, tried
+from sketchloft.exact.changes.trial import FREE_GAIN, Change, free_gain, tried
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.joins import sole_profile
 from sketchloft.exact.model.surgery import with_runs
 from sketchloft.stack import Run
+from sketchloft.wall.profile import SplineProfile
 from sketchloft.wall.revolved import Revolved, radius_at
 
 __all__ = ["splined"]
@@ -28,9 +30,12 @@ def splined(points: Floats, model: ExactModel, together: float, fewest: int = 1)
             if stop > start and not _continuous(model, stop):
                 break
             stop += 1
+        if stop - start < max(fewest, 1) or _right(points, model, range(start, stop), together):
+            start = max(stop, start + 1)
+            continue
         tangents = model.joins[start + 1 : stop].count("tangent")
         best: ExactModel | None = None
-        for spans in SPANS if stop - start >= fewest else ():
+        for spans in SPANS:
             source, last = (model, stop) if best is None else (best, start + 1)
             wall = _spline_through(points, source, start, last, spans)
             change = with_runs(source, start, last - 1, Run((wall,)))
@@ -44,6 +49,13 @@ def splined(points: Floats, model: ExactModel, together: float, fewest: int = 1)
         model = best or model
         start = start + 1 if best is not None else max(stop, start + 1)
     return model
+
+
+def _right(points: Floats, model: ExactModel, runs: range, together: float) -> bool:
+    """Whether a line or an arc is all that independent points ask for."""
+    wall = sole_profile(model.stack.runs[runs.start])
+    alone = len(runs) == 1 and wall is not None and not isinstance(wall.profile, SplineProfile)
+    return alone and together == 1 and HOPE * misfit(points, model, runs, together) <= FREE_GAIN
 
 
 def _continuous(model: ExactModel, k: int) -> bool:

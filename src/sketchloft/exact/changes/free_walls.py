@@ -6,7 +6,7 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.exact.changes.loft_start import loft_start
-from sketchloft.exact.changes.misfit import misfit
+from sketchloft.exact.changes.misfit import HOPE, misfit
 from sketchloft.exact.changes.ruled_start import ruled_start
 from sketchloft.exact.changes.square_to_round import square_to_round
 from sketchloft.exact.changes.trial import Change, tried_free
@@ -30,9 +30,8 @@ SIMPLEST = 10
 """Parameters of a ruled wall at least: those of a rectangle and a circle."""
 CLEAR = 0.0042
 """Noise, as a share of the size, up to which the walls of a cloud of strokes are looked at for a misfit."""
-HOPE = 6.0, 10.0
-"""How much more a ruled wall and a loft may gain than the misfit shows, which counts points where walls weigh
-them."""
+MUCH = 10.0
+"""`HOPE` for a loft."""
 LOFTS = (((12, 2), (12, 4), (18, 4), (24, 6)), ((16, 1), (24, 1), (24, 3)))
 """Poles around and spans along of the free lofts that are tried, each list as long as it pays."""
 
@@ -69,8 +68,9 @@ def ruled(points: Floats, model: ExactModel, together: float) -> ExactModel:
         # Strokes lie too unevenly beside the walls for a misfit to show; that they are blurred does.
         blurred = together > 1 and model.sigma > CLEAR
         more = SIMPLEST - sum(len(wall.vector) for wall in walls)
+        more = max(more, 0) if len(walls) == 1 else more
         least = GAIN + price(more, len(points), together) - _fewer(chain, len(points), together)
-        if not blurred and HOPE[0] * misfit(points, model, chain, together) <= least:
+        if not blurred and HOPE * misfit(points, model, chain, together) <= least:
             continue
         ends = float(model.stack.breaks[chain.start]), float(model.stack.breaks[chain.stop])
         found: list[tuple[float, ExactModel]] = []
@@ -117,7 +117,7 @@ def _promising(points: Floats, model: ExactModel, runs: range, together: float) 
     held = sum(len(wall.vector) for j in runs for wall in model.stack.runs[j].walls)
     more = around * (spans + Lofted.degree) - held
     fewer = _fewer(runs, len(points), together)
-    return HOPE[1] * misfit(points, model, runs, together) > CHEAP * more + GAIN - fewer
+    return MUCH * misfit(points, model, runs, together) > CHEAP * more + GAIN - fewer
 
 
 def _fewer(runs: range, count: int, together: float) -> float:

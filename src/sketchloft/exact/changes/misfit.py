@@ -11,7 +11,10 @@ from sketchloft.cloud import Floats, Ints
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.stack import THIN, Wall, section_boundary
 
-__all__ = ["misfit"]
+__all__ = ["HOPE", "misfit"]
+
+HOPE = 6.0
+"""How much more other walls may gain than the misfit shows, which counts points where walls weigh them."""
 
 AROUND = 16
 ALONG = 8

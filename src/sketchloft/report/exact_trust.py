@@ -13,8 +13,8 @@ __all__ = ["CHECKS", "exact_trust"]
 
 CHECKS = (
     "Checked before it was given out: one closed shell without free edges, accepted by the CAD kernel, "
-    "normals outwards, walls that do not meet, a volume equal to that of the sections, and faces that lie on "
-    "the fitted walls and breaks."
+    "normals outwards, walls that do not meet, a volume equal to that of the sections, faces that lie on the "
+    "fitted walls and breaks, and the same solid when it is read back from STEP."
 )
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from sketchloft.cloud import Floats
 from sketchloft.exact.section.section_contours import plan_view
-from sketchloft.exact.section.twist import twist_of, untwisted
+from sketchloft.exact.section.twist import seems_to_turn, twist_of, untwisted
 from sketchloft.exact.start.segments import SegmentsParams, segments
 from sketchloft.sample import GOALS, sample_goal
 
@@ -99,6 +99,14 @@ def test_a_known_twist_is_found(corners: int, twist: float) -> None:
 def test_what_does_not_turn_has_no_twist(corners: int) -> None:
     for seed in (3, 4, 5):
         assert found_twist(bar(0.0, corners, seed)) == 0
+
+
+@pytest.mark.parametrize("corners", [2, 3, 4])
+def test_a_turn_shows_at_a_glance_and_only_where_there_is_one(corners: int) -> None:
+    for twist in (0.0, 1.6):
+        points = bar(twist, corners, 3)
+        plan = plan_view(points)
+        assert seems_to_turn(plan, points[:, 2] - plan.height) == bool(twist)
 
 
 def test_a_round_bar_has_no_twist_however_it_is_turned() -> None:

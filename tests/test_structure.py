@@ -234,6 +234,19 @@ def test_an_ellipsoid_is_one_face() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("seed", [1, 2])
+def test_a_triangle_that_turns_is_seen_along_its_axis(seed: int) -> None:
+    """Seen from the side its sections are smoother than those of the still heights along it."""
+    points = np.random.default_rng(seed).uniform(-1, 1, (16 * N, 3)) * [3, 3, 4.5]
+    spokes = points[:, :2] @ [1, 1j] * np.exp(-1j * np.pi / 18 * points[:, 2])
+    ways = np.exp(-2j * np.pi * np.arange(3) / 3)
+    points = points[((spokes[:, None] * ways).real < 1.5).all(axis=1)][:N]
+    body = body_of(points)
+    assert [wall.kind for run in body.model.stack.runs for wall in run.walls] == ["twisted regular polygon"]
+    assert body.facts.volume == pytest.approx(1.5**2 * 3 * np.sqrt(3) * 9, rel=0.01)
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "faces", "least"),
     [

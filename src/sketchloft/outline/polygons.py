@@ -11,7 +11,12 @@ from numpy.typing import NDArray
 from sketchloft.cloud import Floats
 from sketchloft.outline.chain_outline import ChainOutline
 
-__all__ = ["LineArc", "Polygon", "chain_outline", "corner_areas"]
+__all__ = ["LineArc", "Polygon", "chain_outline", "corner_areas", "odd_corners"]
+
+PLAIN = np.radians([0.0, 90.0, -90.0])
+"""Turns at the end of an arc that a designer draws."""
+ASKEW = np.radians(15.0)
+"""How far from these a turn may be."""
 
 
 @dataclass(frozen=True)
@@ -97,3 +102,13 @@ class LineArc(ChainOutline):
 def chain_outline(vertices: Floats, bulges: Floats) -> Polygon | LineArc:
     """Outline of a chain whose lines stay lines."""
     return LineArc(vertices, bulges, bulges != 0) if bulges.any() else Polygon(vertices)
+
+
+def odd_corners(outline: LineArc) -> int:
+    """How many ends of arcs neither run on into the next edge nor stand at right angles to it, about."""
+    along = np.roll(outline.vertices, -1, axis=0) - outline.vertices
+    angle, sweep = np.arctan2(along[:, 1], along[:, 0]), 4 * np.arctan(outline.bulges)
+    turn = angle - sweep / 2 - np.roll(angle + sweep / 2, 1)
+    away = np.abs(np.angle(np.exp(1j * (turn[:, None] - PLAIN)))).min(axis=1)
+    beside_arc = outline.curved | np.roll(outline.curved, 1)
+    return int((beside_arc & (away > ASKEW)).sum())

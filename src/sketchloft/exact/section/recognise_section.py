@@ -25,7 +25,7 @@ from sketchloft.outline.circle import Circle
 from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.outline import Arc, Outline
 from sketchloft.outline.placed_polygons import Rectangle, RoundedRectangle
-from sketchloft.outline.polygons import LineArc, Polygon, corner_areas
+from sketchloft.outline.polygons import LineArc, Polygon, corner_areas, odd_corners
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import SplineLoop
 from sketchloft.ring import ring_length
@@ -52,6 +52,8 @@ COMMON = (Circle, Ellipse, Rectangle)
 RARE = 6.0
 """Log odds against other outlines of up to six edges, and against a rectangle with one radius, of which there
 are more to be taken for one by chance; one more for each further line, two for each arc."""
+ODD = 3.0
+"""Log odds against each end of an arc at an odd angle."""
 LAST = 12.0
 """Log odds against splines, which are drawn for want of anything else."""
 LATTICE = 40
@@ -104,6 +106,8 @@ def rarity(outline: Outline) -> float:
     if isinstance(outline, RoundedRectangle):
         return RARE
     edges = sum(2.0 if isinstance(edge, Arc) else 1.0 for edge in outline.edges())
+    if isinstance(outline, LineArc):
+        edges += ODD * odd_corners(outline)
     return 0.0 if isinstance(outline, COMMON) else max(RARE, edges)
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from sketchloft.cloud import Floats
 from sketchloft.exact.section.section_contours import PlanView
 
-__all__ = ["twist_of", "untwisted"]
+__all__ = ["seems_to_turn", "twist_of", "untwisted"]
 
 FOLDS = range(2, 8)
 MOST_TURN = 2.5
@@ -20,9 +20,38 @@ CLEAR = 8.0
 GAIN = 60.0
 """Squared deviations by which it must be above the moment that does not turn."""
 MOST_POINTS = 3000
+SEEN = 4.0
+"""Standard deviations by which the ends must be turned against each other for a segment to seem to turn."""
 
 
-def twist_of(plan: PlanView, heights: Floats, together: float = 1.0) -> float:
+def seems_to_turn(plan: PlanView, heights: Floats, together: float = 1.0) -> bool:
+    """Whether the lower and the upper third of a segment are turned against each other, at a glance.
+
+    Parameters
+    ----------
+    plan : PlanView
+    heights : (n,) float array
+        Of its points, relative to the plan's.
+    together : float
+        How many of the points go together.
+    """
+    spokes = (plan.points - plan.centre) @ np.array([1, 1j])
+    third = float(np.ptp(heights)) / 6
+    ends = spokes[heights < -third], spokes[heights > third]
+    for fold in FOLDS:
+        powers = [end**fold for end in ends]
+        moments = [complex(power.sum()) for power in powers]
+        chances = [together * float((np.abs(power) ** 2).sum()) for power in powers]
+        clear = [
+            abs(moment) ** 2 / max(chance, 1e-300) for moment, chance in zip(moments, chances, strict=True)
+        ]
+        turn = abs(float(np.angle(moments[1] * np.conj(moments[0]))))
+        if min(clear) > CLEAR and turn > SEEN * float(np.sqrt(0.5 / clear[0] + 0.5 / clear[1])):
+            return True
+    return False
+
+
+def twist_of(plan: PlanView, heights: Floats, together: float = 1.0, most_points: int = MOST_POINTS) -> float:
     """Turn per height, in radians, at which the section's outline is sharpest; 0 where it does not turn.
 
     Parameters
@@ -32,6 +61,8 @@ def twist_of(plan: PlanView, heights: Floats, together: float = 1.0) -> float:
         Of its points, relative to the plan's.
     together : float
         How many of the points go together.
+    most_points : int
+        How many of them are looked at.
 
     Notes
     -----
@@ -39,7 +70,7 @@ def twist_of(plan: PlanView, heights: Floats, together: float = 1.0) -> float:
     to 7 the one that stands out most from chance, once turned back, decides: its peak over the turn is
     a periodogram's.
     """
-    step = len(heights) // MOST_POINTS + 1
+    step = len(heights) // most_points + 1
     spokes = (plan.points[::step] - plan.centre) @ np.array([1, 1j])
     z = heights[::step]
     length = float(np.ptp(z))

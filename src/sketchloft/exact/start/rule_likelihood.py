@@ -2,7 +2,8 @@
 
 Along the right direction, each segment's points fall on one sharp section once they are moved along the
 segment's rule (`plan_view`). The density of a point is then that of its height times that of its place in
-the section. Seen along a wrong direction the sections smear, and the likelihood drops.
+the section. A section that turns is turned back. Seen along a wrong direction the sections smear, and the
+likelihood drops.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.exact.section.section_contours import plan_view
+from sketchloft.exact.section.twist import seems_to_turn, twist_of, untwisted
 from sketchloft.exact.start.segments import SegmentsParams, cut
 
 __all__ = ["rule_likelihood"]
@@ -22,6 +24,8 @@ BLUR = 0.012
 CELLS = 1.5
 """Cells per blur."""
 FEWEST = 40
+TURNED_POINTS = 1000
+"""Points that tell by how much a segment turns."""
 PER_SEGMENT = 14.0
 """Parameters of a segment's rule, as they are priced."""
 
@@ -39,6 +43,9 @@ def rule_likelihood(points: Floats, params: SegmentsParams, together: float) -> 
             total += len(inner) * -np.log((high - low) * 1.0) if len(inner) else 0.0
             continue
         plan = plan_view(inner, together)
+        place = inner[:, 2] - plan.height
+        if seems_to_turn(plan, place, together):
+            plan = untwisted(plan, place, twist_of(plan, place, together, TURNED_POINTS))
         along = _heights(inner[:, 2], float(start), float(stop))
         across = _places(plan.points)
         total += float((np.log(along) + np.log(across) - 2 * np.log(plan.scale)).sum()) + len(inner) * np.log(

@@ -14,9 +14,9 @@ from sketchloft.outline.placed_polygons import Rectangle, RegularPolygon, Rounde
 from sketchloft.outline.polygons import LineArc, Polygon
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import SplineLoop, spline_loop
-from sketchloft.outline.star import Star, star_of
+from sketchloft.outline.star import Star, star_in, star_of
 from sketchloft.ring import ring_area, ring_depth
-from sketchloft.shapes.spline import ClosedSpline
+from sketchloft.shapes.spline import ClosedSpline, resampled
 
 CENTRE = np.array([0.3, -0.2])
 ELL = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]]) - 0.8
@@ -237,5 +237,11 @@ def test_a_star_is_found_from_its_corners_and_an_l_is_none() -> None:
         assert found is not None
         assert found.chain()[0][0] == pytest.approx(star.chain()[0][first + first % 2], abs=1e-9)
         assert (found.radius, found.inner_radius) == pytest.approx((1.0, 0.45))
+        seen = star_in(resampled(found.chain()[0], 300))
+        assert seen is not None
+        assert seen.tips == star.tips
+        assert seen.vector == pytest.approx([*CENTRE, 1.0, 0.45, seen.angle], abs=0.02)
+        assert np.cos(star.tips * (seen.angle - star.angle)) == pytest.approx(1, abs=0.01)
+    assert star_in(resampled(RegularPolygon(CENTRE, 1.0, 0.3, 5).chain()[0], 300)) is None
     corners = np.array([[0, 0], [1, 0], [1, 0.4], [0.4, 0.4], [0.4, 1], [0, 1]])
     assert star_of(corners) is None

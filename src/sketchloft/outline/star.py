@@ -10,13 +10,19 @@ import numpy as np
 from sketchloft.cloud import Floats
 from sketchloft.outline.chain_outline import ChainOutline
 from sketchloft.outline.placed_polygons import moves_of, placed
+from sketchloft.ring import ring_centre
 
-__all__ = ["Star", "star_of"]
+__all__ = ["Star", "star_in", "star_of"]
 
 FEWEST = 6
 """Corners of a star at least."""
 ASTRAY = 0.15
 """Distance of a polygon's corner from the star's, in the radius, up to which it may be meant for it."""
+
+TIPS = range(3, 13)
+AROUND = 240
+CONCAVE = 0.9
+"""Inner radius of a star at most, in that of the regular polygon with corners at its tips."""
 
 
 @dataclass(frozen=True)
@@ -91,3 +97,23 @@ def star_of(vertices: Floats) -> Star | None:
     star = Star(centre, radii[outer], radii[1 - outer], turn + outer * 2 * np.pi / count, count // 2)
     astray = np.abs(np.roll(star.chain()[0], outer, axis=0) - vertices).max()
     return star if astray < ASTRAY * star.radius else None
+
+
+def star_in(ring: Floats) -> Star | None:
+    """Star with as many tips as the radius of a contour (m, 2) has waves; None if these are too low."""
+    centre = ring_centre(ring)
+    spokes = (ring - centre) @ [1, 1j]
+    order = np.argsort(np.angle(spokes))
+    angles, radii = np.angle(spokes)[order], np.abs(spokes)[order]
+    around = 2 * np.pi * np.arange(AROUND) / AROUND
+
+    def radius(at: Floats) -> Floats:
+        return np.interp(at, angles, radii, period=2 * np.pi)
+
+    waves = np.fft.rfft(radius(around))
+    tips = TIPS[int(np.argmax(np.abs(waves[TIPS.start : TIPS.stop])))]
+    first = -float(np.angle(waves[tips])) / tips
+    turn = first + 2 * np.pi * np.arange(tips) / tips
+    outer, inner = float(radius(turn).mean()), float(radius(turn + np.pi / tips).mean())
+    concave = inner < CONCAVE * outer * np.cos(np.pi / tips)
+    return Star(centre, outer, inner, first, tips) if concave else None

@@ -59,7 +59,8 @@ def upended(
     those along one edge, or around one face, are rounded corners or ends of a prism along that edge only.
     """
     best, turn = model, np.eye(3)
-    for other, rotation in _stood_otherwise(points, model) or _stood_otherwise(points, first):
+    box = model if len(model.stack.runs) == 1 else replace(first, sigma=model.sigma)
+    for other, rotation in _stood_otherwise(points, box):
         turned = points @ rotation
         least = value_of(turned, other) + HINT * together
         if max(value_of(turned, with_run(other, 0, Run((wall,)))) for wall in _rounded(other)) > least:

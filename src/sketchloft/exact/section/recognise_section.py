@@ -28,6 +28,7 @@ from sketchloft.outline.placed_polygons import Rectangle, RoundedRectangle
 from sketchloft.outline.polygons import LineArc, Polygon, corner_areas, odd_corners
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import SplineLoop
+from sketchloft.outline.star import Star, star_in
 from sketchloft.ring import ring_length
 from sketchloft.shapes.spline import resampled
 from sketchloft.stack import Run, Stack
@@ -50,8 +51,8 @@ ENOUGH = 0.05
 COMMON = (Circle, Ellipse, Rectangle)
 """Outlines that there is no simpler one for."""
 RARE = 6.0
-"""Log odds against other outlines of up to six edges, and against a rectangle with one radius, of which there
-are more to be taken for one by chance; one more for each further line, two for each arc."""
+"""Log odds against other outlines of up to six edges, and against a rectangle with one radius and a star, of
+which there are more to be taken for one by chance; one more for each further line, two for each arc."""
 ODD = 3.0
 """Log odds against each end of an arc at an odd angle."""
 LAST = 12.0
@@ -103,7 +104,7 @@ def rarity(outline: Outline) -> float:
     """Log odds against an outline before the points are seen."""
     if isinstance(outline, SplineLoop):
         return LAST
-    if isinstance(outline, RoundedRectangle):
+    if isinstance(outline, (RoundedRectangle, Star)):
         return RARE
     edges = sum(2.0 if isinstance(edge, Arc) else 1.0 for edge in outline.edges())
     if isinstance(outline, LineArc):
@@ -152,7 +153,8 @@ def _attempt_corners(
     """Try outlines with corners, and the best polygon with fewer and fewer of them."""
     cut = chains(ring, blur)
     polygon = next((outline for outline in cut if isinstance(outline, Polygon)), None)
-    for outline in (*cut, *polygons(ring, polygon, blur)):
+    star = star_in(ring)
+    for outline in (*cut, *polygons(ring, polygon, blur), *([] if star is None else [star])):
         attempt(outline)
     plain = [found for found in tried if isinstance(found[1], Polygon)]
     value, outline = max(plain or tried, key=lambda found: found[0])

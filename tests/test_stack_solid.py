@@ -184,7 +184,7 @@ CASES: dict[str, tuple[Stack, dict[str, int]]] = {
         stack([0, 0.4], swept(Ellipse(AXIS, 0.4, 0.3, 0.2), taper=-0.9)),
         {"BSplineSurface": 1, "Plane": 2},
     ),
-    "kidney": (stack([0, 0.4], swept(spline_loop(KIDNEY))), {"BSplineSurface": 1, "Plane": 2}),
+    "kidney": (stack([0, 0.4], swept(spline_loop(KIDNEY))), {"SurfaceOfLinearExtrusion": 1, "Plane": 2}),
     "plate with holes": (
         stack([0, 0.1], Run((swept(PLATE), *(cylinder(0.05, at) for at in PINS)), 4)),
         {"CylindricalSurface": 4, "Plane": 6},

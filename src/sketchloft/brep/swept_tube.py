@@ -110,7 +110,19 @@ def _side(edge: Edge, ends: Motion) -> Side:
         even = abs(conics[1].major - conics[0].major) < EXACT
         if even or (straight and conics[0].major == conics[0].minor):
             return _conic_side(conics[0], conics[1], ends.heights, straight=straight, even=even)
+    if np.abs(ends.turns[1] - ends.turns[0]).max() < EXACT:
+        return _extruded(nurbs_of(edge), ends)
     return _ruled(nurbs_of(edge), ends, np.repeat(ends.heights, 2), 1)
+
+
+def _extruded(curve: Nurbs, ends: Motion) -> Side:
+    """The extrusion of a curve; kernels draw it more evenly than a B-spline that is the same."""
+    poles = ends.of(curve.poles)
+    rims = [bspline_curve(row, curve.weights, curve.knots, curve.degree) for row in poles]
+    along = poles[1, 0] - poles[0, 0]
+    surface = Geom_SurfaceOfLinearExtrusion(rims[0], direction(along))
+    u, v = _ends(curve.knots), (0.0, float(np.linalg.norm(along)))
+    return Side(surface, u, v, CurvePart(rims[0], *u), CurvePart(rims[1], *u))
 
 
 def _carried(conic: Conic, turn: Floats, shift: Floats) -> Conic:

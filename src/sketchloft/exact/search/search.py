@@ -10,6 +10,7 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.exact.changes.evidence import improved, merged
+from sketchloft.exact.changes.misfit import misfit
 from sketchloft.exact.changes.trial import worth
 from sketchloft.exact.fit.climb import climb
 from sketchloft.exact.fit.inward_gap import without_gap
@@ -31,6 +32,8 @@ AT_LEAST = 0.004
 """Noise that the evidence is judged with at least: sharper walls would trap the search."""
 BLURRED = 0.006
 """Noise, as a share of the size, above which the walls of a cloud of strokes may be the wrong ones."""
+WRONG = 15.0
+"""Misfit above which those of an even cloud may be."""
 
 
 @dataclass(frozen=True)
@@ -49,6 +52,8 @@ class Found:
         The rotation: these points = the start's points @ turn.
     value : float
         What the model is worth.
+    misfit : float
+        What other walls might gain, about.
     """
 
     start: Start
@@ -56,6 +61,7 @@ class Found:
     points: Floats
     turn: Floats
     value: float
+    misfit: float
 
 
 def searched(starts: tuple[Start, ...], *, tilt: bool, progress: Callable[[str], None]) -> Iterator[Found]:
@@ -72,8 +78,9 @@ def searched(starts: tuple[Start, ...], *, tilt: bool, progress: Callable[[str],
 
     Notes
     -----
-    The first is searched for from the best start, and where its walls stay blurred from the next start and
-    the sharpest, too. Each end with a free loft is followed by one without.
+    The first is searched for from the best start; where the points have something against its walls from the
+    next start, too, and where strokes leave them blurred from the next and the sharpest. Each end with a free
+    loft is followed by one without.
     """
 
     def search(start: Start, *, lofts: bool = True) -> Found:
@@ -81,7 +88,9 @@ def searched(starts: tuple[Start, ...], *, tilt: bool, progress: Callable[[str],
 
     found = [search(starts[0])]
     others = list(starts[1:])
-    if others and starts[0].together > 1 and found[0].model.sigma >= BLURRED:
+    if others and starts[0].together == 1 and found[0].misfit > WRONG:
+        found.append(search(others.pop(0)))
+    elif others and starts[0].together > 1 and found[0].model.sigma >= BLURRED:
         sharpest = min(others, key=lambda start: start.merged.sigma)
         for start in [others[0]] if others[0] is sharpest else [others[0], sharpest]:
             found.append(search(start))
@@ -122,4 +131,6 @@ def _found(start: Start, *, tilt: bool, lofts: bool, progress: Callable[[str], N
     model = thicker(without_gap(model, least_noise(model, len(points))), 1 / every)
     model = flush(sample @ turn, model, together)
     value = worth(sample @ turn, model, together, len(sample))
-    return Found(start, thicker(model, every), points, start.settling @ turn, value)
+    blurred = replace(model, sigma=max(model.sigma, AT_LEAST))
+    left = misfit(sample @ turn, blurred, range(len(model.stack.runs)), together)
+    return Found(start, thicker(model, every), points, start.settling @ turn, value, left)

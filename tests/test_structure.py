@@ -20,6 +20,7 @@ from sketchloft.exact.search.flush import flush
 from sketchloft.exact.search.upright import upright
 from sketchloft.exact.section.recognise_section import recognise_section
 from sketchloft.outline.circle import Circle
+from sketchloft.outline.divided_circle import DividedCircle
 from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.placed_polygons import Rectangle
 from sketchloft.outline.polygons import Polygon
@@ -30,6 +31,7 @@ from sketchloft.stack import Run, Stack, Wall
 from sketchloft.stack_volume import stack_volume
 from sketchloft.wall.profile import ArcProfile, LineProfile
 from sketchloft.wall.revolved import Revolved
+from sketchloft.wall.ruled import Ruled
 from sketchloft.wall.swept import Swept
 
 AXIS = np.zeros(2)
@@ -231,6 +233,16 @@ def test_an_ellipsoid_is_one_face() -> None:
     body = body_of((points[np.linalg.norm(points, axis=1) < 1] * [3, 2, 1.5])[:N])
     assert body.facts.faces == {"BSplineSurface": 1}
     assert body.facts.volume == pytest.approx(4 / 3 * np.pi * 9, rel=0.01)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [11, 12])
+def test_a_tall_slab_that_becomes_round_is_seen_from_its_end(seed: int) -> None:
+    """Seen from its side it can be cut into three polygons, which the points have something against."""
+    ruled = Ruled(Rectangle(AXIS, 0.66, 0.33, 0.0), DividedCircle(AXIS, 0.165, np.pi / 4, -0.1), -0.44, 0.44)
+    body = body_of(drawn(stack_of([-0.44, 0.44], ruled), seed=seed))
+    assert [wall.kind for run in body.model.stack.runs for wall in run.walls] == ["ruled"]
+    assert np.abs(body.vector[2]) == pytest.approx(1, abs=1e-3)
 
 
 @pytest.mark.slow

@@ -67,10 +67,12 @@ class Number:
             raise ValueError(f"found {raw!r}, expected a {self.sign} number")
         if self.shape[:1] == (None,) and len(value) < self.least:
             raise ValueError(f"found a list of {len(value)}, expected at least {self.least} entries")
-        return value
+        return int(value) if self.quantity == "count" else value
 
     def stored(self, value: Any, scale: float) -> Numbers:
         """Value in a file of one in a wall whose unit of length has this size."""
+        if self.quantity == "count":
+            return int(value)
         found = np.asarray(value, dtype=np.float64) * self._factor(scale)
         return found if self.shape else float(found)
 

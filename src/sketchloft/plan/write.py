@@ -79,7 +79,7 @@ def _value(value: Value | Numbers) -> str:
         return _text(value.name)
     if isinstance(value, str):
         return _text(value)
-    if isinstance(value, float):
+    if isinstance(value, (int, float)):
         return repr(value)
     return _list(value.tolist(), "")
 

@@ -18,8 +18,8 @@ FEWEST = 6
 """Corners of a star at least."""
 ASTRAY = 0.15
 """Distance of a polygon's corner from the star's, in the radius, up to which it may be meant for it."""
-
 TIPS = range(3, 13)
+"""How many tips are looked for in a contour."""
 AROUND = 240
 CONCAVE = 0.9
 """Inner radius of a star at most, in that of the regular polygon with corners at its tips."""
@@ -62,15 +62,16 @@ class Star(ChainOutline):
 
     def chain(self) -> tuple[Floats, Floats]:
         """Tips and the corners between them, and bulges of 0."""
-        outer, inner = self._spokes
-        local = self.radius * outer + self.inner_radius * inner
-        return placed(self.centre, self.angle, local), np.zeros(2 * self.tips)
+        return placed(self.centre, self.angle, self._local), np.zeros(2 * self.tips)
 
     def by_vector(self, gradient: Floats) -> Floats:
         """Apply the derivative of the corners."""
+        return gradient[:, : 4 * self.tips] @ moves_of(self.angle, self._local, *self._spokes)
+
+    @property
+    def _local(self) -> Floats:
         outer, inner = self._spokes
-        local = self.radius * outer + self.inner_radius * inner
-        return gradient[:, : 4 * self.tips] @ moves_of(self.angle, local, outer, inner)
+        return self.radius * outer + self.inner_radius * inner
 
     @property
     def _spokes(self) -> tuple[Floats, Floats]:

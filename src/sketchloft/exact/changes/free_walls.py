@@ -9,7 +9,7 @@ from sketchloft.exact.changes.loft_start import loft_start
 from sketchloft.exact.changes.misfit import HOPE, misfit
 from sketchloft.exact.changes.ruled_start import ruled_start
 from sketchloft.exact.changes.square_to_round import square_to_round
-from sketchloft.exact.changes.trial import Change, tried_free
+from sketchloft.exact.changes.trial import PER_RUN, Change, tried_free
 from sketchloft.exact.fit.schwarz import price
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.surgery import with_runs
@@ -69,7 +69,7 @@ def ruled(points: Floats, model: ExactModel, together: float) -> ExactModel:
         blurred = together > 1 and model.sigma > CLEAR
         more = SIMPLEST - sum(len(wall.vector) for wall in walls)
         more = max(more, 0) if len(walls) == 1 else more
-        least = GAIN + price(more, len(points), together) - _fewer(chain, len(points), together)
+        least = GAIN + price(more - PER_RUN * (len(walls) - 1), len(points), together)
         if not blurred and HOPE * misfit(points, model, chain, together) <= least:
             continue
         ends = float(model.stack.breaks[chain.start]), float(model.stack.breaks[chain.stop])
@@ -116,13 +116,8 @@ def _promising(points: Floats, model: ExactModel, runs: range, together: float) 
     around, spans = LOFTS[0][0]
     held = sum(len(wall.vector) for j in runs for wall in model.stack.runs[j].walls)
     more = around * (spans + Lofted.degree) - held
-    fewer = _fewer(runs, len(points), together)
-    return MUCH * misfit(points, model, runs, together) > CHEAP * more + GAIN - fewer
-
-
-def _fewer(runs: range, count: int, together: float) -> float:
-    """What one run in the place of some saves (`worth`)."""
-    return (len(runs) - 1) * float(np.log(count / together))
+    saved = price(PER_RUN * (len(runs) - 1), len(points), together)
+    return MUCH * misfit(points, model, runs, together) > CHEAP * more + GAIN - saved
 
 
 def _smooth(model: ExactModel, k: int) -> bool:

@@ -15,7 +15,7 @@ from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.joins import natural_joins
 from sketchloft.exact.model.soundness import detached
 
-__all__ = ["FREE_GAIN", "MOST_NOISE", "Change", "free_gain", "tried", "tried_free", "worth"]
+__all__ = ["FREE_GAIN", "MOST_NOISE", "PER_RUN", "Change", "free_gain", "tried", "tried_free", "worth"]
 
 BESIDE = 6.0
 """Noise deviations from the walls within which points decide."""
@@ -42,6 +42,8 @@ SHORT = 8.0
 """Runs shorter than so many noise deviations are taken for noise unless they gain a lot."""
 DETACHED = 300.0
 """What a wall must gain that does not reach the run beside it."""
+PER_RUN = 2
+"""Parameters that a run is priced as, beside those of its walls."""
 SHORTNESS = 12.0
 """What a run of no length at all must gain."""
 
@@ -182,9 +184,9 @@ def worth(points: Floats, model: ExactModel, together: float, count: int) -> flo
     """Log likelihood of some of a cloud's points (n, 3), less the price of the model for all of them."""
     lengths = np.diff(model.stack.breaks)
     short = np.maximum(1 - lengths / (SHORT * model.sigma), 0.0)
-    runs = len(lengths) * float(np.log(count / together)) + SHORTNESS * float(short.sum())
-    runs += DETACHED * detached(model)
-    return value_of(points, model) / together - (price(model.parameters, count, together) + runs)
+    odd = SHORTNESS * float(short.sum()) + DETACHED * detached(model)
+    parameters = model.parameters + PER_RUN * len(lengths)
+    return value_of(points, model) / together - (price(parameters, count, together) + odd)
 
 
 def _with_neighbours(model: ExactModel, runs: range) -> range:

@@ -153,9 +153,11 @@ def _attempt_corners(
     """Try outlines with corners, and the best polygon with fewer and fewer of them."""
     cut = chains(ring, blur)
     polygon = next((outline for outline in cut if isinstance(outline, Polygon)), None)
-    star = star_in(ring)
-    for outline in (*cut, *polygons(ring, polygon, blur), *([] if star is None else [star])):
+    for outline in (*cut, *polygons(ring, polygon, blur)):
         attempt(outline)
+    star = star_in(ring)
+    if star is not None:
+        attempt(star)
     plain = [found for found in tried if isinstance(found[1], Polygon)]
     value, outline = max(plain or tried, key=lambda found: found[0])
     while isinstance(outline, Polygon) and len(outline.vertices) > 3:

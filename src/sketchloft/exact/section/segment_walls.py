@@ -58,10 +58,12 @@ def segment_run(
     rough : bool
         Whether a few kinds of sections will do.
     """
-    plan = plan_view(points, clump(together))
-    twist = twist_of(plan, points[:, 2] - plan.height, clump(together))
+    in_row = clump(together)
+    plan = plan_view(points, in_row)
+    heights = points[:, 2] - plan.height
+    twist = twist_of(plan, heights, in_row)
     if twist:
-        plan = untwisted(plan, points[:, 2] - plan.height, twist)
+        plan = untwisted(plan, heights, twist)
     shape = recognise_section(plan.points, together, rough=rough)
     if shape is None:
         return None

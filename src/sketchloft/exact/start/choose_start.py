@@ -78,17 +78,17 @@ def started(
 def _contenders(points: Floats, first: Start, candidates: Candidates, params: SegmentsParams) -> list[Start]:
     """First stacks along the directions next to the best, until one is plain."""
     found: list[Start] = []
-    best = candidates[0] if candidates else None
-    close = [
-        k
-        for k in _unlike(candidates)[1:]
-        if best and (candidates[k].value > best.value - CLOSE or candidates[k].likelihood > best.likelihood)
-    ]
+    close = [k for k in _unlike(candidates)[1:] if _close(candidates[k], candidates[0])]
     for k in close[:CONTENDERS]:
         if max([first, *found], key=_value).plain:
             break
         found.append(start_along(points, candidates[k].vector, _led_by(candidates, k), params))
     return found
+
+
+def _close(candidate: Candidate, best: Candidate) -> bool:
+    """Whether a direction is hardly behind the best, or only for want of symmetry."""
+    return candidate.value > best.value - CLOSE or candidate.likelihood > best.likelihood
 
 
 def _blurred_contenders(

@@ -123,6 +123,10 @@ class Swept:
         """Signed distance of points (n, 3), and its derivatives."""
         if self.bows:
             return self._dome(points)
+        if not (self.free or self.taper or self.twist or self.drift.any()):
+            seen = self.outline.foot(points[:, :2])
+            normal = np.column_stack([seen.normal, np.zeros(len(points))])
+            return WallFoot(seen.distance, normal, seen.gradient, seen.curvature)
         dz = points[:, 2] - self.height
         scale = np.maximum(1 + self.taper * dz, 1e-6)
         cos, sin = np.cos(self.twist * dz), np.sin(self.twist * dz)

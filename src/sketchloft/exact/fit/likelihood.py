@@ -44,8 +44,7 @@ class Evaluation:
 
 def beside_walls(points: Floats, model: ExactModel, width: float) -> NDArray[np.bool_]:
     """(n,) whether points (n, 3) lie within a width of a wall or a break, or outside."""
-    inside = _inside(points, model, width / 3, gradient=False)[0]
-    return np.asarray(inside < 0.9987)
+    return np.asarray(_share_inside(points, model, width / 3) < 0.9987)
 
 
 def evaluate(points: Floats, model: ExactModel, *, caps: bool = True) -> Evaluation:
@@ -62,6 +61,7 @@ def evaluate(points: Floats, model: ExactModel, *, caps: bool = True) -> Evaluat
     if not sound(model):
         nothing = np.zeros(size + 4)
         return Evaluation(-np.inf, nothing, np.zeros((size + 4, size + 4)), nothing)
+    points = points[_rising(points)]
     inside, slope, reach = _inside(points, model, model.sigma, gradient=True, caps=caps)
     rho = model.density.at(points)
     total = rho * inside + model.stray
@@ -79,6 +79,7 @@ def value_of(points: Floats, model: ExactModel, *, caps: bool = True) -> float:
     """Return the log likelihood alone, as `evaluate` does."""
     if not sound(model):
         return -np.inf
+    points = points[_rising(points)]
     inside = _inside(points, model, model.sigma, gradient=False, caps=caps)[0]
     total = model.density.at(points) * inside + model.stray
     expected = expected_points(model, wall_nodes(model)) + model.stray * model.space
@@ -87,43 +88,53 @@ def value_of(points: Floats, model: ExactModel, *, caps: bool = True) -> float:
 
 def share_of(points: Floats, model: ExactModel, *, caps: bool = True) -> Floats:
     """(n,) probability of each point to be none of the strays."""
-    inside = model.density.at(points) * _inside(points, model, model.sigma, gradient=False, caps=caps)[0]
+    inside = model.density.at(points) * _share_inside(points, model, model.sigma, caps=caps)
     return inside / (inside + model.stray)
+
+
+def _rising(points: Floats) -> Ints:
+    """Order (n,) in which the points of a run are all in a row."""
+    return np.argsort(points[:, 2], kind="stable")
+
+
+def _share_inside(points: Floats, model: ExactModel, sigma: float, *, caps: bool = True) -> Floats:
+    """Soft indicator (n,) of points in any order."""
+    order = _rising(points)
+    inside = np.empty(len(points))
+    inside[order] = _inside(points[order], model, sigma, gradient=False, caps=caps)[0]
+    return inside
 
 
 def _inside(
     points: Floats, model: ExactModel, sigma: float, *, gradient: bool, caps: bool = True
 ) -> tuple[Floats, Floats, Floats]:
-    """Soft indicator (n,), its derivatives (n, walls + breaks + 2 + 1 + 1), and the walls' reach."""
-    from scipy.special import ndtr  # noqa: PLC0415
-
+    """Soft indicator (n,) of rising points, its derivatives (n, walls + breaks + 4), and the walls' reach."""
     stack = model.stack
     walls, k = model.size, len(stack.breaks)
     z = points[:, 2]
     heights = stack.breaks if caps else np.r_[-np.inf, stack.breaks[1:-1], np.inf]
-    step = ndtr((heights - z[:, None]) / sigma)
     inside = np.zeros(len(points))
     slope = np.zeros((len(points), walls + k + 4)) if gradient else np.zeros((0, 0))
     reach = np.zeros(walls + k + 4)
     reach[walls:-1] = 1.0
     for j in range(len(stack.runs)):
-        low, high = heights[j] - REACH * sigma, heights[j + 1] + REACH * sigma
-        near = np.flatnonzero((z > low) & (z < high))
-        if not len(near):
+        ends = heights[[j, j + 1]]
+        first, last = np.searchsorted(z, ends + np.array([-REACH, REACH]) * sigma).tolist()
+        if first == last:
             continue
-        between = step[near, j + 1] - step[near, j]
+        near = slice(first, last)
+        below, above = _beyond(z[near], ends, sigma)
+        between = above - below
         part, part_slope, tilt, grown = _section(points[near], model, j, sigma, gradient=gradient)
         inside[near] += between * part
         if not gradient:
             continue
         for slot, values, farthest in part_slope:
+            part_of = slope[near]
             columns = slice(slot[0], slot[-1] + 1) if (np.diff(slot) == 1).all() else slot
-            if len(near) == len(z):
-                slope[:, columns] += between[:, None] * values
-            else:
-                slope[near[:, None], slot] += between[:, None] * values
+            part_of[:, columns] += between[:, None] * values
             reach[slot] = np.maximum(reach[slot], farthest)
-        away = heights[[j, j + 1]] - z[near, None]
+        away = ends - z[near, None]
         bell = np.exp(-0.5 * (away / sigma) ** 2) / (sigma * np.sqrt(2 * np.pi))
         slope[near, walls + j] -= bell[:, 0] * part
         slope[near, walls + j + 1] += bell[:, 1] * part
@@ -131,9 +142,23 @@ def _inside(
         fall = part * (bell[:, 0] - bell[:, 1])
         slope[near, walls + k] += between * tilt[:, 0] + fall * points[near, 1]
         slope[near, walls + k + 1] += between * tilt[:, 1] - fall * points[near, 0]
-        ends = -bell * np.where(np.isfinite(away), away, 0.0)
-        slope[near, walls + k + 2] += between * grown + part * (ends[:, 1] - ends[:, 0])
+        drop = -bell * np.where(np.isfinite(away), away, 0.0)
+        slope[near, walls + k + 2] += between * grown + part * (drop[:, 1] - drop[:, 0])
     return inside, slope, reach
+
+
+def _beyond(z: Floats, heights: Floats, sigma: float) -> list[Floats]:
+    """Probability (n,) of rising points to lie below each of some heights; far from them 0 or 1."""
+    from scipy.special import ndtr  # noqa: PLC0415
+
+    shares: list[Floats] = []
+    for height in heights.tolist():
+        first, last = np.searchsorted(z, (height - REACH * sigma, height + REACH * sigma)).tolist()
+        share = np.zeros(len(z))
+        share[:first] = 1.0
+        share[first:last] = ndtr((height - z[first:last]) / sigma)
+        shares.append(share)
+    return shares
 
 
 def _section(

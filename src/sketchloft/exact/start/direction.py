@@ -184,7 +184,7 @@ def _extrusion(directions: Floats, normals: Floats) -> Floats:
 def _revolution(directions: Floats, at: Floats, normals: Floats) -> Floats:
     """Share of the wall whose normals meet the axis through the centre along each direction."""
     moment = np.cross(at, normals)
-    arm = np.linalg.norm(np.cross(directions[:, None], at[None]), axis=2)
+    arm = np.sqrt(np.maximum((at**2).sum(axis=1) - (directions @ at.T) ** 2, 0.0))
     return np.asarray(_soft(np.abs(directions @ moment.T) / np.maximum(arm, 0.02)).mean(axis=1))
 
 

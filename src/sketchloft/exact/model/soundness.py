@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from sketchloft.cloud import Floats
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.joins import poles
-from sketchloft.outline.polygons import LineArc, Polygon
+from sketchloft.outline.chain_outline import ChainOutline
+from sketchloft.outline.polygons import LineArc, Polygon, has_slit
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import SplineLoop
 from sketchloft.stack import Run, Wall, section_boundary
@@ -56,15 +58,28 @@ def _apart(run: Run, height: float) -> bool:
     """Whether the pieces of a section lie beside each other, and the holes too, each of them in a piece."""
     rings = [section_boundary(wall, height, AROUND).points for wall in run.walls]
     pieces = len(run.walls) - run.holes
-    for k, ring in enumerate(rings):
-        inside = np.array([wall.foot(ring).distance < 0 for wall in run.walls])
-        inside[k] = False
-        in_pieces, in_holes = inside[:pieces], inside[pieces:]
-        if k < pieces and in_pieces.any():
-            return False
-        if k >= pieces and (in_holes.any() or not in_pieces.any(axis=0).all()):
-            return False
-    return True
+    for first, last in ((0, pieces), (pieces, len(rings))):  # pieces among themselves, holes among themselves
+        for k in range(first, last):
+            for i in range(first, last):
+                if i != k and _overlap(rings[i], rings[k]) and _within(run.walls[i], rings[k]).any():
+                    return False
+    return all(
+        np.any([_within(wall, ring) for wall in run.walls[:pieces]], axis=0).all() for ring in rings[pieces:]
+    )
+
+
+def _overlap(ring: Floats, other: Floats) -> bool:
+    """Whether the boxes around two rings have a place in common."""
+    low, high = (
+        np.maximum(ring.min(axis=0), other.min(axis=0)),
+        np.minimum(ring.max(axis=0), other.max(axis=0)),
+    )
+    return bool((low <= high).all())
+
+
+def _within(wall: Wall, ring: Floats) -> NDArray[np.bool_]:
+    """(m,) whether points (m, 3) are inside a wall."""
+    return np.asarray(wall.foot(ring).distance < 0)
 
 
 def _outer(run: Run, heights: Floats) -> list[Floats]:
@@ -89,7 +104,7 @@ def _closes(wall: Wall) -> bool:
 
 
 def _simple(wall: Wall, heights: Floats) -> bool:
-    """Whether the sections at heights (m,) nowhere cross themselves."""
+    """Whether the sections at heights (m,) nowhere cross themselves, and have no slits."""
     from shapely import is_valid, linearrings, polygons  # noqa: PLC0415
 
     if isinstance(wall, Lofted):
@@ -98,6 +113,8 @@ def _simple(wall: Wall, heights: Floats) -> bool:
     elif isinstance(wall, Ruled):
         rings = wall.ring(heights, SAMPLES).reshape(len(heights), -1, 2)
     elif isinstance(wall, Swept) and isinstance(wall.outline, MAY_CROSS):
+        if isinstance(wall.outline, ChainOutline) and has_slit(*wall.outline.chain()):
+            return False
         rings = wall.outline.boundary(64).points[None]
     else:
         return True

@@ -8,6 +8,7 @@ from sketchloft.cloud import Floats
 from sketchloft.exact.changes.misfit import HOPE, misfit
 from sketchloft.exact.changes.profile_start import profile_start
 from sketchloft.exact.changes.trial import FREE_GAIN, Change, free_gain, tried
+from sketchloft.exact.fit.schwarz import price
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.joins import sole_profile
 from sketchloft.exact.model.surgery import with_runs
@@ -39,7 +40,11 @@ def splined(points: Floats, model: ExactModel, together: float, fewest: int = 1)
             source, last = (model, stop) if best is None else (best, start + 1)
             wall = _spline_through(points, source, start, last, spans)
             change = with_runs(source, start, last - 1, Run((wall,)))
-            handicap = free_gain(stop - start, tangents, len(points), together) if best is None else 0.0
+            lines = not _has_spline(model, range(start, stop))
+            gain = free_gain(stop - start, tangents, len(points), together) if lines else 0.0
+            handicap = gain if best is None else 0.0
+            if best is not None and spans == SPANS[1]:
+                handicap = _akaike(source, change, len(points), together)
             better = tried(
                 points, source, Change(change, range(start, start + 1), handicap, free=True), together
             )
@@ -49,6 +54,28 @@ def splined(points: Floats, model: ExactModel, together: float, fewest: int = 1)
         model = best or model
         start = start + 1 if best is not None else max(stop, start + 1)
     return model
+
+
+def _has_spline(model: ExactModel, runs: range) -> bool:
+    """Whether a chain of runs, two or more, has a free profile in it, so that one more costs no faith."""
+    walls = [sole_profile(model.stack.runs[j]) for j in runs]
+    return len(walls) > 1 and any(w is not None and isinstance(w.profile, SplineProfile) for w in walls)
+
+
+def _akaike(model: ExactModel, finer: ExactModel, count: int, together: float) -> float:
+    """What a finer spline must gain less than its price.
+
+    Notes
+    -----
+    A few poles more are no question of kind, and a curve that is too stiff is farther off than one that is
+    a little too free; where there are many, strokes lead some of them astray.
+
+    References
+    ----------
+    H. Akaike, A new look at the statistical model identification, IEEE Trans. Autom. Control 19 (1974).
+    """
+    more = finer.parameters - model.parameters
+    return more - price(more, count, together)
 
 
 def _right(points: Floats, model: ExactModel, runs: range, together: float) -> bool:

@@ -212,6 +212,26 @@ def test_pieces_that_overlap_and_holes_that_break_through_are_unsound() -> None:
     assert not sound(known(stack(apart=0.25, out=0.15))[1])
 
 
+def test_sections_with_a_slit_that_nobody_draws_are_unsound() -> None:
+    """By chance no points lie in a thin enough cut, so that a polygon would explain them a little better."""
+
+    def prism(half_width: float) -> Stack:
+        slit = [[0.2, 0.15 + half_width], [-0.1, 0.15], [0.2, 0.15 - half_width]]
+        vertices = np.array([[-0.2, 0.0], [0.2, 0.0], *slit[::-1], [0.2, 0.3], [-0.2, 0.3]])
+        return Stack(np.array([-0.3, 0.3]), (Run((Swept(Polygon(vertices), 0.0, ORIGIN, ORIGIN),)),))
+
+    assert sound(known(prism(0.05))[1])
+    assert not sound(known(prism(0.01))[1])
+
+
+def test_points_in_any_order_have_the_same_likelihood() -> None:
+    points, model = known(one_run("cone"))
+    order = np.random.default_rng(3).permutation(len(points))
+    assert value_of(points[order], model) == pytest.approx(value_of(points, model), rel=1e-12)
+    assert (beside_walls(points, model, 0.02)[order] == beside_walls(points[order], model, 0.02)).all()
+    assert share_of(points, model)[order] == pytest.approx(share_of(points[order], model), abs=1e-12)
+
+
 def test_strays_cost_what_they_are_expected_to_be() -> None:
     """More of them than there are explain nothing better: no model wins by calling its points strays."""
     points, model = known(one_run("cylinder"))

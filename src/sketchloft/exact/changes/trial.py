@@ -13,7 +13,7 @@ from sketchloft.exact.fit.likelihood import beside_walls, value_of
 from sketchloft.exact.fit.schwarz import price
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.joins import natural_joins
-from sketchloft.exact.model.soundness import detached
+from sketchloft.exact.model.soundness import detached, slit
 
 __all__ = ["FREE_GAIN", "MOST_NOISE", "PER_RUN", "Change", "free_gain", "tried", "tried_free", "worth"]
 
@@ -42,6 +42,8 @@ SHORT = 8.0
 """Runs shorter than so many noise deviations are taken for noise unless they gain a lot."""
 DETACHED = 300.0
 """What a wall must gain that does not reach the run beside it."""
+SLIT = 40.0
+"""What a slit must gain: by chance there are no points in some that are thin enough."""
 PER_RUN = 2
 """Parameters that a run is priced as, beside those of its walls."""
 SHORTNESS = 12.0
@@ -184,7 +186,7 @@ def worth(points: Floats, model: ExactModel, together: float, count: int) -> flo
     """Log likelihood of some of a cloud's points (n, 3), less the price of the model for all of them."""
     lengths = np.diff(model.stack.breaks)
     short = np.maximum(1 - lengths / (SHORT * model.sigma), 0.0)
-    odd = SHORTNESS * float(short.sum()) + DETACHED * detached(model)
+    odd = SHORTNESS * float(short.sum()) + DETACHED * detached(model) + SLIT * slit(model)
     parameters = model.parameters + PER_RUN * len(lengths)
     return value_of(points, model) / together - (price(parameters, count, together) + odd)
 

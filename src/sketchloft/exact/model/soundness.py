@@ -20,7 +20,7 @@ from sketchloft.wall.revolved import Revolved
 from sketchloft.wall.ruled import SAMPLES, Ruled
 from sketchloft.wall.swept import Swept
 
-__all__ = ["covers", "detached", "sound"]
+__all__ = ["covers", "detached", "slit", "sound"]
 
 MAY_CROSS = (Polygon, LineArc, RoundedPolygon, SplineLoop)
 """Outlines that may cross themselves."""
@@ -98,13 +98,19 @@ def _ends_within(wall: Wall, model: ExactModel, j: int) -> bool:
     return bool((j > 0 and below < low) or (j + 1 < len(model.stack.runs) and above > high))
 
 
+def slit(model: ExactModel) -> int:
+    """Number of walls whose outline has a slit, as a search may pass through and no designer draws."""
+    outlines = [w.outline for run in model.stack.runs for w in run.walls if isinstance(w, Swept)]
+    return sum(isinstance(outline, ChainOutline) and has_slit(*outline.chain()) for outline in outlines)
+
+
 def _closes(wall: Wall) -> bool:
     """Whether a wall that bows is part of an ellipsoid, or of its like over another outline."""
     return not isinstance(wall, Swept) or not wall.bows or abs(wall.bow) > abs(wall.taper)
 
 
 def _simple(wall: Wall, heights: Floats) -> bool:
-    """Whether the sections at heights (m,) nowhere cross themselves, and have no slits."""
+    """Whether the sections at heights (m,) nowhere cross themselves."""
     from shapely import is_valid, linearrings, polygons  # noqa: PLC0415
 
     if isinstance(wall, Lofted):
@@ -113,8 +119,6 @@ def _simple(wall: Wall, heights: Floats) -> bool:
     elif isinstance(wall, Ruled):
         rings = wall.ring(heights, SAMPLES).reshape(len(heights), -1, 2)
     elif isinstance(wall, Swept) and isinstance(wall.outline, MAY_CROSS):
-        if isinstance(wall.outline, ChainOutline) and has_slit(*wall.outline.chain()):
-            return False
         rings = wall.outline.boundary(64).points[None]
     else:
         return True

@@ -13,7 +13,7 @@ from sketchloft.exact.fit.expected import mass_nodes, wall_nodes
 from sketchloft.exact.fit.likelihood import beside_walls, evaluate, share_of, value_of
 from sketchloft.exact.model.density import Density
 from sketchloft.exact.model.exact_model import ExactModel, model_of
-from sketchloft.exact.model.soundness import slit, sound
+from sketchloft.exact.model.soundness import slits, sound
 from sketchloft.outline.divided_circle import DividedCircle
 from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.outline import Outline
@@ -216,12 +216,12 @@ def test_a_slit_that_nobody_draws_is_seen() -> None:
     """By chance no points lie in a thin enough cut, so that a polygon would explain them a little better."""
 
     def prism(half_width: float) -> Stack:
-        slit = [[0.2, 0.15 + half_width], [-0.1, 0.15], [0.2, 0.15 - half_width]]
-        vertices = np.array([[-0.2, 0.0], [0.2, 0.0], *slit[::-1], [0.2, 0.3], [-0.2, 0.3]])
+        cut = [[0.2, 0.15 + half_width], [-0.1, 0.15], [0.2, 0.15 - half_width]]
+        vertices = np.array([[-0.2, 0.0], [0.2, 0.0], *cut[::-1], [0.2, 0.3], [-0.2, 0.3]])
         return Stack(np.array([-0.3, 0.3]), (Run((Swept(Polygon(vertices), 0.0, ORIGIN, ORIGIN),)),))
 
-    assert slit(known(prism(0.05))[1]) == 0
-    assert slit(known(prism(0.01))[1]) == 1
+    assert slits(known(prism(0.05))[1]) == 0
+    assert slits(known(prism(0.01))[1]) == 1
 
 
 def test_points_in_any_order_have_the_same_likelihood() -> None:

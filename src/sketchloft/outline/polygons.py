@@ -9,13 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sketchloft.cloud import Floats
+from sketchloft.outline.chain import chords
 from sketchloft.outline.chain_outline import ChainOutline
 
 __all__ = ["LineArc", "Polygon", "chain_outline", "corner_areas", "has_slit", "odd_corners"]
 
 PLAIN = np.radians([0.0, 90.0, -90.0])
 """Turns at the end of an arc that a designer draws."""
-SLIT = 0.2
+NARROWEST = 0.2
 """Angle in radians between the sides of a cut inwards that is as thin as none is drawn."""
 ASKEW = np.radians(15.0)
 """How far from these a turn may be."""
@@ -108,7 +109,7 @@ def chain_outline(vertices: Floats, bulges: Floats) -> Polygon | LineArc:
 
 def _turns(vertices: Floats, bulges: Floats) -> Floats:
     """Angle (m,) by which a chain turns at each vertex, positive to the left."""
-    along = np.roll(vertices, -1, axis=0) - vertices
+    along = chords(vertices)
     angle, sweep = np.arctan2(along[:, 1], along[:, 0]), 4 * np.arctan(bulges)
     turn = angle - sweep / 2 - np.roll(angle + sweep / 2, 1)
     return np.asarray(np.angle(np.exp(1j * turn)))
@@ -124,4 +125,4 @@ def odd_corners(outline: LineArc) -> int:
 
 def has_slit(vertices: Floats, bulges: Floats) -> bool:
     """Whether a chain cuts inwards as thinly as nobody draws, where by chance there are no points."""
-    return bool((_turns(vertices, bulges) < SLIT - np.pi).any())
+    return bool((_turns(vertices, bulges) < NARROWEST - np.pi).any())

@@ -35,15 +35,16 @@ def splined(points: Floats, model: ExactModel, together: float, fewest: int = 1)
             start = max(stop, start + 1)
             continue
         tangents = model.joins[start + 1 : stop].count("tangent")
-        lines = not _has_spline(model, range(start, stop))
-        entry = free_gain(stop - start, tangents, len(points), together) if lines else 0.0
+        entry = 0.0
+        if not _has_spline(model, range(start, stop)):
+            entry = free_gain(stop - start, tangents, len(points), together)
         best: ExactModel | None = None
         for spans in SPANS:
             source, last = (model, stop) if best is None else (best, start + 1)
             wall = _spline_through(points, source, start, last, spans)
             change = with_runs(source, start, last - 1, Run((wall,)))
             handicap = entry if best is None else 0.0
-            if best is not None and spans == SPANS[1]:
+            if source is best and spans == SPANS[1]:
                 handicap = _akaike(source, change, len(points), together)
             better = tried(
                 points, source, Change(change, range(start, start + 1), handicap, free=True), together

@@ -13,7 +13,7 @@ from sketchloft.exact.fit.likelihood import beside_walls, value_of
 from sketchloft.exact.fit.schwarz import price
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.joins import natural_joins
-from sketchloft.exact.model.soundness import detached, slit
+from sketchloft.exact.model.soundness import detached, slits
 
 __all__ = ["FREE_GAIN", "MOST_NOISE", "PER_RUN", "Change", "free_gain", "tried", "tried_free", "worth"]
 
@@ -186,7 +186,7 @@ def worth(points: Floats, model: ExactModel, together: float, count: int) -> flo
     """Log likelihood of some of a cloud's points (n, 3), less the price of the model for all of them."""
     lengths = np.diff(model.stack.breaks)
     short = np.maximum(1 - lengths / (SHORT * model.sigma), 0.0)
-    odd = SHORTNESS * float(short.sum()) + DETACHED * detached(model) + SLIT * slit(model)
+    odd = SHORTNESS * float(short.sum()) + DETACHED * detached(model) + SLIT * slits(model)
     parameters = model.parameters + PER_RUN * len(lengths)
     return value_of(points, model) / together - (price(parameters, count, together) + odd)
 

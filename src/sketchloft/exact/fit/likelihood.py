@@ -123,16 +123,16 @@ def _inside(
         if first == last:
             continue
         near = slice(first, last)
-        below, above = _beyond(z[near], ends, sigma)
+        below, above = (_below(height, z[near], sigma) for height in ends.tolist())
         between = above - below
         part, part_slope, tilt, grown = _section(points[near], model, j, sigma, gradient=gradient)
         inside[near] += between * part
         if not gradient:
             continue
+        beside = slope[near]
         for slot, values, farthest in part_slope:
-            part_of = slope[near]
             columns = slice(slot[0], slot[-1] + 1) if (np.diff(slot) == 1).all() else slot
-            part_of[:, columns] += between[:, None] * values
+            beside[:, columns] += between[:, None] * values
             reach[slot] = np.maximum(reach[slot], farthest)
         away = ends - z[near, None]
         bell = np.exp(-0.5 * (away / sigma) ** 2) / (sigma * np.sqrt(2 * np.pi))
@@ -147,18 +147,15 @@ def _inside(
     return inside, slope, reach
 
 
-def _beyond(z: Floats, heights: Floats, sigma: float) -> list[Floats]:
-    """Probability (n,) of rising points to lie below each of some heights; far from them 0 or 1."""
+def _below(height: float, z: Floats, sigma: float) -> Floats:
+    """Probability (n,) of rising heights z (n,) to be below another; far from it 0 or 1."""
     from scipy.special import ndtr  # noqa: PLC0415
 
-    shares: list[Floats] = []
-    for height in heights.tolist():
-        first, last = np.searchsorted(z, (height - REACH * sigma, height + REACH * sigma)).tolist()
-        share = np.zeros(len(z))
-        share[:first] = 1.0
-        share[first:last] = ndtr((height - z[first:last]) / sigma)
-        shares.append(share)
-    return shares
+    first, last = np.searchsorted(z, (height - REACH * sigma, height + REACH * sigma)).tolist()
+    share = np.zeros(len(z))
+    share[:first] = 1.0
+    share[first:last] = ndtr((height - z[first:last]) / sigma)
+    return share
 
 
 def _section(

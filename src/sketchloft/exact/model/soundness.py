@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import permutations
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -20,7 +22,7 @@ from sketchloft.wall.revolved import Revolved
 from sketchloft.wall.ruled import SAMPLES, Ruled
 from sketchloft.wall.swept import Swept
 
-__all__ = ["covers", "detached", "slit", "sound"]
+__all__ = ["covers", "detached", "slits", "sound"]
 
 MAY_CROSS = (Polygon, LineArc, RoundedPolygon, SplineLoop)
 """Outlines that may cross themselves."""
@@ -58,11 +60,9 @@ def _apart(run: Run, height: float) -> bool:
     """Whether the pieces of a section lie beside each other, and the holes too, each of them in a piece."""
     rings = [section_boundary(wall, height, AROUND).points for wall in run.walls]
     pieces = len(run.walls) - run.holes
-    for first, last in ((0, pieces), (pieces, len(rings))):  # pieces among themselves, holes among themselves
-        for k in range(first, last):
-            for i in range(first, last):
-                if i != k and _overlap(rings[i], rings[k]) and _within(run.walls[i], rings[k]).any():
-                    return False
+    pairs = [*permutations(range(pieces), 2), *permutations(range(pieces, len(rings)), 2)]
+    if any(_overlap(rings[i], rings[k]) and _within(run.walls[i], rings[k]).any() for i, k in pairs):
+        return False
     return all(
         np.any([_within(wall, ring) for wall in run.walls[:pieces]], axis=0).all() for ring in rings[pieces:]
     )
@@ -70,11 +70,8 @@ def _apart(run: Run, height: float) -> bool:
 
 def _overlap(ring: Floats, other: Floats) -> bool:
     """Whether the boxes around two rings have a place in common."""
-    low, high = (
-        np.maximum(ring.min(axis=0), other.min(axis=0)),
-        np.minimum(ring.max(axis=0), other.max(axis=0)),
-    )
-    return bool((low <= high).all())
+    low = np.maximum(ring.min(axis=0), other.min(axis=0))
+    return bool((low <= np.minimum(ring.max(axis=0), other.max(axis=0))).all())
 
 
 def _within(wall: Wall, ring: Floats) -> NDArray[np.bool_]:
@@ -98,7 +95,7 @@ def _ends_within(wall: Wall, model: ExactModel, j: int) -> bool:
     return bool((j > 0 and below < low) or (j + 1 < len(model.stack.runs) and above > high))
 
 
-def slit(model: ExactModel) -> int:
+def slits(model: ExactModel) -> int:
     """Number of walls whose outline has a slit, as a search may pass through and no designer draws."""
     outlines = [w.outline for run in model.stack.runs for w in run.walls if isinstance(w, Swept)]
     return sum(isinstance(outline, ChainOutline) and has_slit(*outline.chain()) for outline in outlines)

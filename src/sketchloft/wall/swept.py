@@ -89,6 +89,11 @@ class Swept:
         """Whether the sections shrink as those of a dome do."""
         return bool(self.bow) or "bow" in self.free
 
+    @property
+    def still(self) -> bool:
+        """Whether all sections are the same, one above the other."""
+        return not (self.bows or self.taper or self.twist or np.any(self.drift))
+
     def square(self, heights: Floats) -> Floats:
         """Squared scale of the sections at heights (m,), 1 at the outline's; below 0 beyond a tip."""
         dz = heights - self.height
@@ -123,7 +128,7 @@ class Swept:
         """Signed distance of points (n, 3), and its derivatives."""
         if self.bows:
             return self._dome(points)
-        if not (self.free or self.taper or self.twist or self.drift.any()):
+        if self.still and not self.free:
             seen = self.outline.foot(points[:, :2])
             normal = np.column_stack([seen.normal, np.zeros(len(points))])
             return WallFoot(seen.distance, normal, seen.gradient, seen.curvature)

@@ -107,8 +107,7 @@ def _sides(model: ExactModel, j: int) -> list[Side]:
 
 def _is_prism(wall: Swept) -> bool:
     """Whether a wall stands straight on a polygon."""
-    moves = wall.bows or wall.taper or wall.twist or np.any(wall.drift)
-    return not moves and all(isinstance(edge, Segment) for edge in wall.outline.edges())
+    return wall.still and all(isinstance(edge, Segment) for edge in wall.outline.edges())
 
 
 def _near(one: Side, other: Side, reach: float) -> bool:

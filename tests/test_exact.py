@@ -149,6 +149,22 @@ def test_known_dimensions_come_out() -> None:
     assert np.diff(body.model.stack.breaks) * body.scale == pytest.approx([1.5, 10.5, 6], abs=0.03)
 
 
+# Free sections
+
+
+@pytest.mark.parametrize(("tips", "height"), [(5, 0.8), (6, 0.5)])
+def test_a_wavy_outline_has_poles_where_it_needs_them(tips: int, height: float) -> None:
+    def radius(xy: Floats) -> Floats:
+        return 3 + height * np.cos(tips * np.arctan2(xy[:, 1], xy[:, 0]))
+
+    box = np.random.default_rng(9).uniform([-4, -4, 0], [4, 4, 4], (6 * N, 3))
+    body = built(box[np.hypot(*box[:, :2].T) < radius(box)][:N])
+    assert kinds(body) == [["spline"]]
+    assert body.facts.faces == {"SurfaceOfLinearExtrusion": 1, "Plane": 2}
+    around = tessellate(body.solid, 5e-5, 0.1).vertices[:, :2]
+    assert np.sqrt(np.mean((np.hypot(*around.T) - radius(around)) ** 2)) < 0.03
+
+
 # Sections that change
 
 

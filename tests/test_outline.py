@@ -4,11 +4,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 
+from sketchloft.outline.candidates import spline_of
 from sketchloft.outline.chain import chain_area, chain_boundary
 from sketchloft.outline.chain_foot import chain_foot
 from sketchloft.outline.circle import Circle
 from sketchloft.outline.divided_circle import DividedCircle
 from sketchloft.outline.ellipse import Ellipse
+from sketchloft.outline.fitted_loop import fitted_loop
 from sketchloft.outline.outline import Arc, Boundary, Closed, Outline, Segment
 from sketchloft.outline.placed_polygons import Rectangle, RegularPolygon, RoundedRectangle
 from sketchloft.outline.polygons import LineArc, Polygon
@@ -173,6 +175,18 @@ def test_the_spline_is_the_closed_spline_of_its_poles() -> None:
     assert np.abs(loop.foot(points).distance).max() < 1e-12
     outside = loop.moved(loop.vector + 0.05).foot(loop.boundary(100).points).distance
     assert (outside < -0.03).all()
+
+
+def test_poles_go_where_waves_need_them() -> None:
+    angles = np.arange(2000) / 2000 * 2 * np.pi
+    wave = (3 + 0.8 * np.cos(5 * angles))[:, None] * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    for count in (16, 24, 30):
+        even, fitted = (
+            np.sqrt(np.mean(loop.foot(wave).distance ** 2))
+            for loop in (spline_of(wave, count), fitted_loop(wave, count))
+        )
+        assert fitted < even / 2
+    assert fitted < 0.005
 
 
 def test_the_centres_of_round_things_have_finite_feet() -> None:

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from sketchloft.cloud import Floats
 from sketchloft.exact.changes.changes import closings, fillings, merges, splits, swaps
 from sketchloft.exact.changes.filleted_walls import filleted
+from sketchloft.exact.changes.free_outlines import with_poles_that_pay
 from sketchloft.exact.changes.free_profiles import splined
 from sketchloft.exact.changes.free_walls import lofted, ruled
 from sketchloft.exact.changes.trial import Change, tried, worth
@@ -76,6 +77,7 @@ def _changed(points: Floats, model: ExactModel, together: float, *, lofts: bool)
         model = splined(points, model, together)
         model = _through(points, model, together, lambda m: splits(points, m, together), failed)
         model = _through(points, model, together, swaps, failed)
+        model = with_poles_that_pay(points, model, together)
         if lofts and model is not free:
             model = filleted(points, model, together)
             model = free = lofted(points, ruled(points, model, together), together)

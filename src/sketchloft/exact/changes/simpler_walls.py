@@ -9,7 +9,7 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.exact.changes.turning import turning
-from sketchloft.outline.candidates import circle_of, ellipse_of, polygons, spline_of
+from sketchloft.outline.candidates import circle_of, ellipse_of, polygons
 from sketchloft.outline.circle import Circle
 from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.outline import Outline
@@ -31,8 +31,6 @@ HEIGHTS = 25
 TINY = 1e-12
 ROUNDED = 0.12
 """Radius of the corners that a rectangle is tried with, in its short side."""
-MOST_POLES = 20
-"""Poles of a section from which on it is given no more."""
 PARALLEL = 0.1
 """Sine of the angle between two edges that meet nowhere near."""
 NEAR = 3.0
@@ -115,8 +113,6 @@ def _outlines_like(outline: Outline) -> Iterator[Outline]:
         yield circle_of(ring)
     if isinstance(outline, (LineArc, SplineLoop)):
         yield ellipse_of(ring)
-    if isinstance(outline, SplineLoop) and len(outline.poles) < MOST_POLES:
-        yield spline_of(ring, 3 * len(outline.poles) // 2)
     if isinstance(outline, RoundedRectangle):
         yield Rectangle(outline.centre, outline.width, outline.height, outline.angle)
     if isinstance(outline, Rectangle):

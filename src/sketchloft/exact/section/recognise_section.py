@@ -23,6 +23,7 @@ from sketchloft.outline.candidates import (
 )
 from sketchloft.outline.circle import Circle
 from sketchloft.outline.ellipse import Ellipse
+from sketchloft.outline.fitted_loop import fitted_loop
 from sketchloft.outline.outline import Arc, Outline
 from sketchloft.outline.placed_polygons import Rectangle, RoundedRectangle
 from sketchloft.outline.polygons import LineArc, Polygon, corner_areas, odd_corners
@@ -61,6 +62,10 @@ LATTICE = 40
 MANY = 7
 """Corners of a polygon that may stand for a free curve."""
 POLES = (8, 12, 16, 20)
+AROUND = 160
+"""Points on a spline that one of more poles is drawn through."""
+NEARLY = 25.0
+"""Evidence by which a spline of few poles may be behind and yet one of more be the best outline."""
 WAVES = np.arange(2, 13)
 EVEN = 4.0
 """Power of a wave around a circle that chance exceeds once in exp(4) times."""
@@ -142,8 +147,8 @@ def _best(points: Floats, ring: Floats, blur: float, together: float, *, hole: b
         attempt(rectangle_of(ring))
         return _likeliest(tried)
     _attempt_corners(attempt, tried, ring, blur)
-    for poles in POLES[1:] if _may_be_free(_likeliest(tried)) else ():
-        attempt(spline_of(ring, poles))
+    if _may_be_free(tried):
+        _attempt_splines(attempt, tried, ring)
     return _likeliest(tried)
 
 
@@ -167,10 +172,24 @@ def _attempt_corners(
         value, outline = tried[-1]
 
 
-def _may_be_free(outline: Outline) -> bool:
-    """Whether an outline is so rich that it may stand for a free curve."""
-    many = isinstance(outline, Polygon) and len(outline.vertices) >= MANY
-    return many or isinstance(outline, (LineArc, RoundedPolygon, SplineLoop))
+def _attempt_splines(
+    attempt: Callable[[Outline], float], tried: list[tuple[float, Outline]], ring: Floats
+) -> None:
+    """Try splines of more poles; where one crosses itself in bays of the contour, from the best so far."""
+    for poles in POLES[1:]:
+        if not np.isfinite(attempt(spline_of(ring, poles))):
+            splines = [found for found in tried if isinstance(found[1], SplineLoop)]
+            attempt(fitted_loop(_likeliest(splines).boundary(AROUND).points, poles))
+
+
+def _may_be_free(tried: list[tuple[float, Outline]]) -> bool:
+    """Whether the best outline may stand for a free curve: a rich one does, or a stiff spline is as good."""
+    value, best = max(tried, key=lambda found: found[0])
+    if isinstance(best, (LineArc, RoundedPolygon, SplineLoop, Star)):
+        return True
+    if isinstance(best, Polygon) and len(best.vertices) >= MANY:
+        return True
+    return any(isinstance(outline, SplineLoop) and other > value - NEARLY for other, outline in tried)
 
 
 def _likeliest(tried: list[tuple[float, Outline]]) -> Outline:

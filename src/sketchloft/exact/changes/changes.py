@@ -14,7 +14,7 @@ from sketchloft.exact.changes.simpler_walls import profiles_like, walls_like
 from sketchloft.exact.changes.trial import FREE_GAIN, Change, free_gain
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.joins import end_pole, natural_joins, sole_profile
-from sketchloft.exact.model.surgery import with_run, with_runs, with_split, without_run
+from sketchloft.exact.model.surgery import with_run, with_runs, with_split, with_wall, without_run
 from sketchloft.exact.section.recognise_section import rarity
 from sketchloft.intervals import cheapest_chain
 from sketchloft.stack import Run, Wall, section_boundary
@@ -134,10 +134,9 @@ def swaps(model: ExactModel) -> Iterator[Change]:
     for j, (run, low, high) in enumerate(model.stack.slabs()):
         for i, wall in enumerate(run.walls):
             for other in walls_like(wall, low, high):
-                walls = (*run.walls[:i], other, *run.walls[i + 1 :])
                 nested = _extends(wall, other)
                 free = _is_free(wall)
-                changed = with_run(model, j, Run(walls, run.holes))
+                changed = with_wall(model, j, i, other)
                 handicap = -FREE_GAIN if free else max(_rarity(other) - _rarity(wall), 0.0)
                 yield Change(changed, range(j, j + 1), handicap, nested, free)
 

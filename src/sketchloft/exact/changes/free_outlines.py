@@ -10,10 +10,9 @@ from sketchloft.cloud import Floats
 from sketchloft.exact.changes.trial import Change, tried_free
 from sketchloft.exact.fit.schwarz import price
 from sketchloft.exact.model.exact_model import ExactModel
-from sketchloft.exact.model.surgery import with_run
+from sketchloft.exact.model.surgery import with_wall
 from sketchloft.outline.fitted_loop import fitted_loop
 from sketchloft.outline.spline_loop import SplineLoop
-from sketchloft.stack import Run
 from sketchloft.wall.swept import Swept
 
 __all__ = ["with_poles_that_pay"]
@@ -48,40 +47,39 @@ def with_poles_that_pay(points: Floats, model: ExactModel, together: float) -> E
     for j, run in enumerate(model.stack.runs):
         for i, wall in enumerate(run.walls):
             if isinstance(wall, Swept) and isinstance(wall.outline, SplineLoop):
-                model = _refined(points, model, (j, i), together)
+                model = _refined(points, model, (j, i), len(wall.outline.poles), together)
     return model
 
 
-def _refined(points: Floats, model: ExactModel, place: tuple[int, int], together: float) -> ExactModel:
+def _refined(
+    points: Floats, model: ExactModel, place: tuple[int, int], held: int, together: float
+) -> ExactModel:
+    """The model with other poles than those held at a place, where they pay."""
     runs = range(place[0], place[0] + 1)
     follows, _ = tried_free(points, model, Change(_redrawn(model, place, RICH), runs, -np.inf), together)
-    missed = 0
     if follows is None:
         return model
-    for count in POLES:
-        more = count - _poles(model, place)
-        if more < 0:
-            continue
+    missed = 0
+    for count in (count for count in POLES if count >= held):
+        more = count - held
         handicap = CHEAP * more - price(more, len(points), together)
         change = Change(_redrawn(follows, place, count), runs, handicap)
         better, _ = tried_free(points, model, change, together)
-        missed = 0 if better is not None else missed + 1
+        if better is not None:
+            model, held, missed = better, count, 0
+            continue
+        missed += 1
         if missed == PATIENCE:
             break
-        model = better or model
     return model
 
 
 def _redrawn(model: ExactModel, place: tuple[int, int], count: int) -> ExactModel:
     """The same outline, nearly, with so many poles."""
     j, i = place
-    run = model.stack.runs[j]
-    wall = run.walls[i]
-    if isinstance(wall, Swept):
-        wall = replace(wall, outline=fitted_loop(wall.outline.boundary(AROUND).points, count))
-    return with_run(model, j, Run((*run.walls[:i], wall, *run.walls[i + 1 :]), run.holes))
-
-
-def _poles(model: ExactModel, place: tuple[int, int]) -> int:
-    wall = model.stack.runs[place[0]].walls[place[1]]
-    return len(wall.outline.poles) if isinstance(wall, Swept) and isinstance(wall.outline, SplineLoop) else 0
+    wall = model.stack.runs[j].walls[i]
+    if not isinstance(wall, Swept):
+        return model
+    return with_wall(
+        model, j, i, replace(wall, outline=fitted_loop(wall.outline.boundary(AROUND).points, count))
+    )

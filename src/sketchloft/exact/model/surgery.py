@@ -11,7 +11,7 @@ from sketchloft.exact.model.exact_model import ExactModel, model_of
 from sketchloft.exact.model.joins import natural_joins
 from sketchloft.stack import Run, Stack, Wall
 
-__all__ = ["with_run", "with_runs", "with_split", "without_run"]
+__all__ = ["with_run", "with_runs", "with_split", "with_wall", "without_run"]
 
 
 def with_runs(model: ExactModel, first: int, last: int, run: Run) -> ExactModel:
@@ -24,6 +24,12 @@ def with_runs(model: ExactModel, first: int, last: int, run: Run) -> ExactModel:
 def with_run(model: ExactModel, index: int, run: Run) -> ExactModel:
     """Replace one run."""
     return with_runs(model, index, index, run)
+
+
+def with_wall(model: ExactModel, index: int, place: int, wall: Wall) -> ExactModel:
+    """Replace one wall of a run."""
+    run = model.stack.runs[index]
+    return with_run(model, index, Run((*run.walls[:place], wall, *run.walls[place + 1 :]), run.holes))
 
 
 def with_split(model: ExactModel, index: int, heights: Sequence[float], walls: Sequence[Wall]) -> ExactModel:

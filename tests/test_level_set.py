@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from sketchloft.cloud import Floats
-from sketchloft.dispersion import dispersion
+from sketchloft.dispersion import dispersion, thinned
 from sketchloft.exact.section.level_set import level_set, on_grid
 from sketchloft.exact.section.section_contours import contours
 from sketchloft.exact.start.start import SEARCH_POINTS
@@ -105,6 +105,13 @@ def test_independent_points_go_one_by_one(name: str) -> None:
 def test_points_of_strokes_go_together(name: str) -> None:
     points = cloud(name, 10_000, "strokes")
     assert dispersion(points) > 5
+
+
+@pytest.mark.parametrize("name", ["three-spheres", "lamp", "l-shape", "stepped-shaft"])
+def test_one_point_in_three_of_strokes_has_fewer_beside_it(name: str) -> None:
+    points = cloud(name, 10_000, "strokes")
+    sample = np.random.default_rng(0).permutation(points)[::3]
+    assert dispersion(sample) == pytest.approx(thinned(dispersion(points), 3), rel=0.4)
 
 
 def test_a_density_that_changes_slowly_is_no_dispersion() -> None:

@@ -17,6 +17,7 @@ from sketchloft.outline.polygons import LineArc, Polygon
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import SplineLoop, spline_loop
 from sketchloft.outline.star import Star, star_in, star_of
+from sketchloft.periodic_cubic import curve_at, locate, pieces
 from sketchloft.ring import ring_area, ring_depth
 from sketchloft.shapes.spline import ClosedSpline, resampled
 
@@ -171,7 +172,10 @@ def test_known_areas_and_edges() -> None:
 
 def test_the_spline_is_the_closed_spline_of_its_poles() -> None:
     loop = clover()
-    points = ClosedSpline(loop.poles).evaluate(np.arange(97) / 97)
+    u = np.arange(97) / 97
+    points = ClosedSpline(loop.poles).evaluate(u)
+    at, _, _ = curve_at(pieces(loop.poles), *locate(u, len(loop.poles)))
+    np.testing.assert_allclose(points, at.T, atol=1e-12)
     assert np.abs(loop.foot(points).distance).max() < 1e-12
     outside = loop.moved(loop.vector + 0.05).foot(loop.boundary(100).points).distance
     assert (outside < -0.03).all()

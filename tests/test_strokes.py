@@ -10,6 +10,7 @@ from sketchloft import Params, PointCloud, reconstruct
 from sketchloft.cloud import Floats
 from sketchloft.exact.body import ExactBody
 from sketchloft.outline.divided_circle import DividedCircle
+from sketchloft.outline.fitted_loop import fitted_loop
 from sketchloft.outline.outline import Outline
 from sketchloft.outline.placed_polygons import Rectangle, RoundedRectangle
 from sketchloft.stack import Run, Stack, Wall
@@ -20,6 +21,8 @@ from sketchloft.wall.swept import Swept
 
 N = 10_000
 ORIGIN = np.zeros(2)
+ANGLES = np.arange(720) / 720 * 2 * np.pi
+AROUND = np.column_stack([np.cos(ANGLES), np.sin(ANGLES)])
 SLOW = pytest.mark.slow
 
 
@@ -38,6 +41,8 @@ WALLS: dict[str, tuple[Wall, float]] = {
         5.0,
     ),
     "one face rounded": (Filleted(Rectangle(ORIGIN, 6.0, 4.0, 0.2), 0.9, "top", 0.0, 5.0), 5.0),
+    "four waves": (prism(fitted_loop((3 + 0.7 * np.cos(4 * ANGLES))[:, None] * AROUND, 24)), 3.0),
+    "five waves": (prism(fitted_loop((3 + 0.8 * np.cos(5 * ANGLES))[:, None] * AROUND, 30)), 4.0),
     "twisted": (prism(Rectangle(ORIGIN, 6.0, 3.5, 0.2), 0.08), 5.0),
 }
 KINDS = {
@@ -46,6 +51,8 @@ KINDS = {
     "edges rounded": "rounded rectangle",
     "all edges rounded": "filleted prism",
     "one face rounded": "filleted prism",
+    "four waves": "spline",
+    "five waves": "spline",
 }
 
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 
-__all__ = ["clump", "dispersion"]
+__all__ = ["clump", "dispersion", "thinned"]
 
 JUDGED = 0.07
 """Length, in sizes of the cloud, along which a stroke counts as one point where walls are judged."""
@@ -63,3 +63,8 @@ def dispersion(points: Floats) -> float:
 def clump(together: float) -> float:
     """Points that go together where they are blurred, as `dispersion` says of a section."""
     return 1.0 + (together - 1.0) * BLURRED / JUDGED
+
+
+def thinned(together: float, every: int) -> float:
+    """Points that go together where one in so many is looked at."""
+    return 1.0 + (together - 1.0) / every

@@ -10,7 +10,7 @@ import numpy as np
 from sketchloft.cloud import Floats
 from sketchloft.outline.chain import outward
 from sketchloft.outline.outline import Boundary, Closed, Edge, Foot
-from sketchloft.outline.periodic_cubic import basis_at, curve_at, locate, pieces
+from sketchloft.periodic_cubic import basis_at, curve_at, locate, pieces
 
 __all__ = ["SplineLoop", "spline_loop"]
 

@@ -9,12 +9,10 @@ from typing import ClassVar
 import numpy as np
 
 from sketchloft.cloud import Floats
+from sketchloft.periodic_cubic import basis_at, locate
 from sketchloft.ring import ring_depth
-from sketchloft.surface import basis_matrix
 
-__all__ = ["ClosedSpline", "fit_spline", "resampled"]
-
-DEGREE = 3
+__all__ = ["ClosedSpline", "fit_spline", "periodic_basis", "resampled"]
 
 
 @dataclass(frozen=True)
@@ -39,7 +37,7 @@ class ClosedSpline:
 
     def evaluate(self, t: Floats) -> Floats:
         """Points (m, 2) at parameters t, once around counter-clockwise for t from 0 to 1."""
-        return _periodic_basis(np.mod(t, 1.0), len(self.poles)) @ self.poles
+        return periodic_basis(t, len(self.poles)) @ self.poles
 
     def distance(self, points: Floats) -> Floats:
         """Signed distance (m,) of points (m, 2) from a fine polyline of it, positive outside."""
@@ -92,14 +90,13 @@ def _least_squares(points: Floats, count: int) -> ClosedSpline:
 @functools.lru_cache(maxsize=64)
 def _projection(samples: int, count: int) -> Floats:
     """(count, samples) matrix that takes evenly spaced samples to the poles nearest to them."""
-    basis = _periodic_basis(np.arange(samples) / samples, count)
+    basis = periodic_basis(np.arange(samples) / samples, count)
     return np.asarray(np.linalg.solve(basis.T @ basis, basis.T), dtype=np.float64)
 
 
-def _periodic_basis(t: Floats, count: int) -> Floats:
+def periodic_basis(t: Floats, count: int) -> Floats:
     """(m, count) values of the periodic basis functions; function 0 is the one that starts at t = 0."""
-    knots = np.arange(-DEGREE, count + DEGREE + 1) / count
-    open_basis = basis_matrix(knots, DEGREE, t)
-    basis = open_basis[:, :count].copy()
-    basis[:, :DEGREE] += open_basis[:, count:]
+    columns, values = basis_at(*locate(t, count), count)
+    basis = np.zeros((len(t), count))
+    np.put_along_axis(basis, columns, values, axis=1)
     return basis

@@ -8,7 +8,7 @@ from typing import ClassVar, Self
 import numpy as np
 
 from sketchloft.cloud import Floats, Ints
-from sketchloft.outline.periodic_cubic import basis_at, locate, pieces
+from sketchloft.periodic_cubic import basis_at, locate, pieces
 from sketchloft.surface import basis_matrix, even_knots, local_basis
 from sketchloft.wall.foot import WallBoundary, WallFoot
 

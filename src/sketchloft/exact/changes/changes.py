@@ -15,7 +15,7 @@ from sketchloft.exact.changes.trial import FREE_GAIN, Change, free_gain
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.joins import end_pole, natural_joins, sole_profile
 from sketchloft.exact.model.surgery import with_run, with_runs, with_split, with_wall, without_run
-from sketchloft.exact.section.recognise_section import rarity
+from sketchloft.exact.section.rarity import rarity
 from sketchloft.intervals import cheapest_chain
 from sketchloft.stack import Run, Wall, section_boundary
 from sketchloft.wall.profile import Profile, SplineProfile

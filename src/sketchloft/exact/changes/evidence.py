@@ -68,7 +68,7 @@ def merged(points: Floats, model: ExactModel, together: float) -> ExactModel:
 def _changed(points: Floats, model: ExactModel, together: float, *, lofts: bool) -> ExactModel:
     """Look through all kinds of changes as long as one pays."""
     failed: set[tuple[object, ...]] = set()
-    free: ExactModel | None = None
+    settled: ExactModel | None = None
     for _ in range(ROUNDS):
         before = model
         model = _through(points, model, together, merges, failed, again=True)
@@ -77,12 +77,15 @@ def _changed(points: Floats, model: ExactModel, together: float, *, lofts: bool)
         model = splined(points, model, together)
         model = _through(points, model, together, lambda m: splits(points, m, together), failed)
         model = _through(points, model, together, swaps, failed)
+        if model is settled:
+            break
         model = with_poles_that_pay(points, model, together)
-        if lofts and model is not free:
+        if lofts:
             model = filleted(points, model, together)
-            model = free = lofted(points, ruled(points, model, together), together)
+            model = lofted(points, ruled(points, model, together), together)
         if model is before:
             break
+        settled = model
     return model
 
 

@@ -1,4 +1,4 @@
-"""Free outlines: as many poles for an outline that is a spline as the points pay for, where it needs them."""
+"""Free outlines: a spline for an outline of many edges, with as many poles as pay, where it needs them."""
 
 from __future__ import annotations
 
@@ -11,7 +11,9 @@ from sketchloft.exact.changes.trial import Change, tried_free
 from sketchloft.exact.fit.schwarz import price
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.surgery import with_wall
+from sketchloft.exact.section.rarity import LAST, may_be_free, rarity
 from sketchloft.outline.fitted_loop import fitted_loop
+from sketchloft.outline.outline import Outline
 from sketchloft.outline.spline_loop import SplineLoop
 from sketchloft.wall.swept import Swept
 
@@ -29,7 +31,7 @@ AROUND = 8 * RICH
 
 
 def with_poles_that_pay(points: Floats, model: ExactModel, together: float) -> ExactModel:
-    """Other poles for each outline that is a spline, as long as they pay.
+    """Other poles for each outline that is a spline, and a spline for one of many edges, where they pay.
 
     Parameters
     ----------
@@ -46,40 +48,44 @@ def with_poles_that_pay(points: Floats, model: ExactModel, together: float) -> E
     """
     for j, run in enumerate(model.stack.runs):
         for i, wall in enumerate(run.walls):
-            if isinstance(wall, Swept) and isinstance(wall.outline, SplineLoop):
-                model = _refined(points, model, (j, i), len(wall.outline.poles), together)
+            if isinstance(wall, Swept) and may_be_free(wall.outline):
+                model = _refined(points, model, (j, i), wall.outline, together)
     return model
 
 
 def _refined(
-    points: Floats, model: ExactModel, place: tuple[int, int], held: int, together: float
+    points: Floats, model: ExactModel, place: tuple[int, int], outline: Outline, together: float
 ) -> ExactModel:
-    """The model with other poles than those held at a place, where they pay."""
-    runs = range(place[0], place[0] + 1)
-    follows, _ = tried_free(points, model, Change(_redrawn(model, place, RICH), runs, -np.inf), together)
-    if follows is None:
+    """The model with other poles than those of the outline at a place, or with some, where they pay."""
+    runs, count = range(place[0], place[0] + 1), len(points)
+    splined = isinstance(outline, SplineLoop)
+    held = len(outline.vector) if splined else POLES[0]
+    odds = 0.0 if splined else LAST - rarity(outline)
+    least = -np.inf if splined else odds - price(RICH - held, count, together)
+    follows, _ = tried_free(points, model, Change(_redrawn(model, place, RICH), runs, least), together)
+    if follows is None:  # it does not gain what the stiffest spline would cost
         return model
     missed = 0
-    for count in (count for count in POLES if count >= held):
-        more = count - held
-        handicap = CHEAP * more - price(more, len(points), together)
-        change = Change(_redrawn(follows, place, count), runs, handicap)
+    for poles in (poles for poles in POLES if poles >= held):
+        more = poles - held
+        handicap = odds + CHEAP * more - price(more, count, together)
+        change = Change(_redrawn(follows, place, poles), runs, handicap)
         better, _ = tried_free(points, model, change, together)
         if better is not None:
-            model, held, missed = better, count, 0
+            model, held, splined, odds, missed = better, poles, True, 0.0, 0
             continue
-        missed += 1
+        missed += splined
         if missed == PATIENCE:
             break
     return model
 
 
-def _redrawn(model: ExactModel, place: tuple[int, int], count: int) -> ExactModel:
-    """The same outline, nearly, with so many poles."""
+def _redrawn(model: ExactModel, place: tuple[int, int], poles: int) -> ExactModel:
+    """The same outline, nearly, as a spline with so many poles."""
     j, i = place
     wall = model.stack.runs[j].walls[i]
     if not isinstance(wall, Swept):
         return model
     return with_wall(
-        model, j, i, replace(wall, outline=fitted_loop(wall.outline.boundary(AROUND).points, count))
+        model, j, i, replace(wall, outline=fitted_loop(wall.outline.boundary(AROUND).points, poles))
     )

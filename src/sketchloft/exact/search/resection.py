@@ -9,7 +9,7 @@ from sketchloft.exact.changes.misfit import misfit
 from sketchloft.exact.changes.trial import Change, tried
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.surgery import with_run
-from sketchloft.exact.section.recognise_section import COMMON
+from sketchloft.exact.section.rarity import COMMON
 from sketchloft.exact.section.segment_walls import segment_run
 from sketchloft.exact.start.first_stack import FEWEST
 from sketchloft.stack import Wall

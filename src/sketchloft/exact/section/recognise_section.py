@@ -8,10 +8,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from sketchloft.cloud import Floats
+from sketchloft.dispersion import thinned
 from sketchloft.exact.fit.climb import climb, fit_density
 from sketchloft.exact.fit.schwarz import evidence
 from sketchloft.exact.model.density import Density
 from sketchloft.exact.model.exact_model import ExactModel, model_of
+from sketchloft.exact.section.rarity import may_be_free, rarity
 from sketchloft.exact.section.section_contours import contours
 from sketchloft.outline.candidates import (
     chains,
@@ -21,21 +23,17 @@ from sketchloft.outline.candidates import (
     rectangle_of,
     spline_of,
 )
-from sketchloft.outline.circle import Circle
-from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.fitted_loop import fitted_loop
-from sketchloft.outline.outline import Arc, Outline
-from sketchloft.outline.placed_polygons import Rectangle, RoundedRectangle
-from sketchloft.outline.polygons import LineArc, Polygon, corner_areas, odd_corners
-from sketchloft.outline.rounded_polygon import RoundedPolygon
+from sketchloft.outline.outline import Outline
+from sketchloft.outline.polygons import Polygon, corner_areas
 from sketchloft.outline.spline_loop import SplineLoop
-from sketchloft.outline.star import Star, star_in
+from sketchloft.outline.star import star_in
 from sketchloft.ring import ring_length
 from sketchloft.shapes.spline import resampled
 from sketchloft.stack import Run, Stack
 from sketchloft.wall.swept import Swept
 
-__all__ = ["COMMON", "SectionShape", "rarity", "recognise_section"]
+__all__ = ["SectionShape", "recognise_section"]
 
 MOST_POINTS = 3000
 BESIDE = 4.0
@@ -49,23 +47,12 @@ HOPELESS = 150.0, 25.0
 evidence, is given up."""
 ENOUGH = 0.05
 """Evidence that a step gains for there to be another."""
-COMMON = (Circle, Ellipse, Rectangle)
-"""Outlines that there is no simpler one for."""
-RARE = 6.0
-"""Log odds against other outlines of up to six edges, and against a rectangle with one radius and a star, of
-which there are more to be taken for one by chance; one more for each further line, two for each arc."""
-ODD = 3.0
-"""Log odds against each end of an arc at an odd angle."""
-LAST = 12.0
-"""Log odds against splines, which are drawn for want of anything else."""
 LATTICE = 40
-MANY = 7
-"""Corners of a polygon that may stand for a free curve."""
 POLES = (8, 12, 16, 20)
 AROUND = 160
 """Points on a spline that one of more poles is drawn through."""
 NEARLY = 25.0
-"""Evidence by which a spline of few poles may be behind and yet one of more be the best outline."""
+"""Evidence by which a spline of few poles, or many edges, may be behind and yet one of more be the best."""
 WAVES = np.arange(2, 13)
 EVEN = 4.0
 """Power of a wave around a circle that chance exceeds once in exp(4) times."""
@@ -105,21 +92,11 @@ def recognise_section(points: Floats, together: float, *, rough: bool = False) -
     return SectionShape(tuple(outlines), len(holes))
 
 
-def rarity(outline: Outline) -> float:
-    """Log odds against an outline before the points are seen."""
-    if isinstance(outline, SplineLoop):
-        return LAST
-    if isinstance(outline, (RoundedRectangle, Star)):
-        return RARE
-    edges = sum(2.0 if isinstance(edge, Arc) else 1.0 for edge in outline.edges())
-    if isinstance(outline, LineArc):
-        edges += ODD * odd_corners(outline)
-    return 0.0 if isinstance(outline, COMMON) else max(RARE, edges)
-
-
 def _best(points: Floats, ring: Floats, blur: float, together: float, *, hole: bool, rough: bool) -> Outline:
     """Find the best outline for one loop from the points beside it."""
     near, core, area = _beside(points, ring, BESIDE * blur, hole=hole)
+    every = len(near) // MOST_POINTS + 1
+    near, together = near[::every], thinned(together, every)
     tried: list[tuple[float, Outline]] = []
     seen = [-np.inf]
     hopeless = max(HOPELESS[0] / together, HOPELESS[1])
@@ -183,13 +160,9 @@ def _attempt_splines(
 
 
 def _may_be_free(tried: list[tuple[float, Outline]]) -> bool:
-    """Whether the best outline may stand for a free curve: a rich one does, or a stiff spline is as good."""
-    value, best = max(tried, key=lambda found: found[0])
-    if isinstance(best, (LineArc, RoundedPolygon, SplineLoop, Star)):
-        return True
-    if isinstance(best, Polygon) and len(best.vertices) >= MANY:
-        return True
-    return any(isinstance(outline, SplineLoop) and other > value - NEARLY for other, outline in tried)
+    """Whether an outline that stands for a free curve is nearly the best, or so is a stiff spline."""
+    best = max(value for value, _ in tried)
+    return any(may_be_free(outline) and value > best - NEARLY for value, outline in tried)
 
 
 def _likeliest(tried: list[tuple[float, Outline]]) -> Outline:
@@ -224,7 +197,7 @@ def _simpler(polygon: Polygon) -> Polygon:
 
 
 def _beside(points: Floats, ring: Floats, width: float, *, hole: bool) -> tuple[Floats, Floats, float]:
-    """Points within a width of a ring, thinned to `MOST_POINTS`; the area inside left out; that taken."""
+    """Points within a width of a ring; the area inside left out; that taken."""
     from scipy.spatial import cKDTree  # noqa: PLC0415
     from shapely import Polygon as Region  # noqa: PLC0415
     from shapely import contains_xy  # noqa: PLC0415
@@ -241,7 +214,7 @@ def _beside(points: Floats, ring: Floats, width: float, *, hole: bool) -> tuple[
     places = places[contains_xy(rest, places)]
     share = np.full(len(places), sign * float(rest.area) / max(len(places), 1))
     core = np.column_stack([places, np.zeros(len(places)), share])
-    return near[:: len(near) // MOST_POINTS + 1], core, sign * float(region.area - rest.area)
+    return near, core, sign * float(region.area - rest.area)
 
 
 def _model(

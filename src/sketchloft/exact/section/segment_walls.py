@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.dispersion import clump
+from sketchloft.dispersion import clump, thinned
 from sketchloft.exact.fit.climb import climb, fit_density
 from sketchloft.exact.fit.schwarz import evidence
 from sketchloft.exact.model.density import Density
@@ -67,8 +67,8 @@ def segment_run(
     shape = recognise_section(plan.points, together, rough=rough)
     if shape is None:
         return None
-    if len(points) > MOST_POINTS:
-        points = points[:: len(points) // MOST_POINTS + 1]
+    every = len(points) // MOST_POINTS + 1
+    points, together = points[::every], thinned(together, every)
     best: tuple[float, ExactModel] | None = None
     for run in _runs(plan, shape, ends, twist):
         model = _fitted(points, run, ends, sigma, density)

@@ -1,0 +1,45 @@
+"""Rarity: how seldom an outline is drawn, and which ones stand for a free curve."""
+
+from __future__ import annotations
+
+from sketchloft.outline.circle import Circle
+from sketchloft.outline.ellipse import Ellipse
+from sketchloft.outline.outline import Arc, Outline
+from sketchloft.outline.placed_polygons import Rectangle, RoundedRectangle
+from sketchloft.outline.polygons import LineArc, Polygon, odd_corners
+from sketchloft.outline.rounded_polygon import RoundedPolygon
+from sketchloft.outline.spline_loop import SplineLoop
+from sketchloft.outline.star import Star
+
+__all__ = ["COMMON", "LAST", "may_be_free", "rarity"]
+
+COMMON = (Circle, Ellipse, Rectangle)
+"""Outlines that there is no simpler one for."""
+RARE = 6.0
+"""Log odds against other outlines of up to six edges, and against a rectangle with one radius and a star, of
+which there are more to be taken for one by chance; one more for each further line, two for each arc."""
+ODD = 3.0
+"""Log odds against each end of an arc at an odd angle."""
+LAST = 12.0
+"""Log odds against splines, which are drawn for want of anything else."""
+MANY = 7
+"""Corners of a polygon that may stand for a free curve."""
+
+
+def rarity(outline: Outline) -> float:
+    """Log odds against an outline before the points are seen."""
+    if isinstance(outline, SplineLoop):
+        return LAST
+    if isinstance(outline, (RoundedRectangle, Star)):
+        return RARE
+    edges = sum(2.0 if isinstance(edge, Arc) else 1.0 for edge in outline.edges())
+    if isinstance(outline, LineArc):
+        edges += ODD * odd_corners(outline)
+    return 0.0 if isinstance(outline, COMMON) else max(RARE, edges)
+
+
+def may_be_free(outline: Outline) -> bool:
+    """Whether an outline is a free curve, or has edges enough to stand for one."""
+    if isinstance(outline, Polygon):
+        return len(outline.vertices) >= MANY
+    return isinstance(outline, (LineArc, RoundedPolygon, SplineLoop, Star))

@@ -118,7 +118,7 @@ def _best(points: Floats, ring: Floats, blur: float, together: float, *, hole: b
     free = attempt(spline_of(ring, POLES[0]))
     circle = attempt(circle_of(ring))
     ellipse = attempt(ellipse_of(ring))
-    if circle > max(free, ellipse) and _even(near, tried[1][1], blur, together):
+    if circle > max(free, ellipse) and together == 1 and _even(near, tried[1][1], blur):
         return tried[1][1]
     if rough:
         attempt(rectangle_of(ring))
@@ -175,8 +175,8 @@ def _holds(outline: Outline, places: Floats, *, hole: bool) -> bool:
     return not len(places) or bool((depth < 0).mean() <= LOST)
 
 
-def _even(near: Floats, outline: Outline, blur: float, together: float) -> bool:
-    """Whether the points just inside and outside an outline lie evenly around it, as around a circle.
+def _even(near: Floats, outline: Outline, blur: float) -> bool:
+    """Whether independent points just inside and outside an outline lie evenly around it, as around a circle.
 
     Notes
     -----
@@ -187,7 +187,7 @@ def _even(near: Floats, outline: Outline, blur: float, together: float) -> bool:
     arms = near[np.abs(foot.distance) < blur] - outline.boundary(24).points.mean(axis=0)
     angles = np.arctan2(arms[:, 1], arms[:, 0])
     powers = np.abs(np.exp(1j * WAVES[:, None] * angles).sum(axis=1)) ** 2 / max(len(angles), 1)
-    return bool((powers < EVEN * together).all())
+    return bool((powers < EVEN).all())
 
 
 def _simpler(polygon: Polygon) -> Polygon:

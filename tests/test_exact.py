@@ -209,6 +209,18 @@ def test_a_tube_keeps_its_hole() -> None:
     assert body.facts.volume == pytest.approx(np.pi * (3**2 - 1.5**2) * 12, rel=0.01)
 
 
+@pytest.mark.parametrize("fill", [FillParams(), NOISY], ids=["even", "noisy"])
+def test_a_ring_is_one_torus(fill: FillParams) -> None:
+    rng = np.random.default_rng(8)
+    box = rng.uniform([-7, -7, -2], [7, 7, 2], (20 * N, 3))
+    points = box[(np.hypot(*box[:, :2].T) - 5) ** 2 + box[:, 2] ** 2 < 1.5**2][: 2 * N]
+    points = points + 18.6 * fill.jitter * rng.standard_normal(points.shape)
+    body = built(points @ TURN + [1e3, 0, 0], axis="auto")
+    assert body.facts.faces == {"ToroidalSurface": 1}
+    assert body.facts.volume == pytest.approx(2 * np.pi**2 * 5 * 1.5**2, rel=0.02)
+    assert abs(float(body.vector @ TURN[2])) > np.cos(np.radians(0.3))
+
+
 def test_a_u_on_its_side_splits_in_two_legs() -> None:
     points = np.random.default_rng(6).uniform([-5, -1.5, 0], [5, 1.5, 8], (4 * N, 3))
     body = built(points[(points[:, 2] < 3) | (np.abs(points[:, 0]) > 2)][:N])

@@ -12,7 +12,8 @@ from sketchloft.cloud import Floats
 from sketchloft.exact.fit.expected import mass_nodes, wall_nodes
 from sketchloft.exact.fit.likelihood import beside_walls, evaluate, share_of, value_of
 from sketchloft.exact.model.density import Density
-from sketchloft.exact.model.exact_model import ExactModel, model_of
+from sketchloft.exact.model.exact_model import ExactModel, model_of, tied
+from sketchloft.exact.model.joins import joined, natural_joins
 from sketchloft.exact.model.soundness import slits, sound
 from sketchloft.outline.divided_circle import DividedCircle
 from sketchloft.outline.ellipse import Ellipse
@@ -176,6 +177,17 @@ def test_at_the_truth_scores_are_what_chance_makes_of_them(name: str) -> None:
 def test_the_integration_points_hold_the_volume(name: str) -> None:
     _, model = known(one_run(name))
     assert mass_nodes(model, wall_nodes(model))[1].sum() == pytest.approx(stack_volume(model.stack), rel=2e-3)
+
+
+def test_a_ring_is_pulled_nowhere_where_its_walls_meet() -> None:
+    walls = tuple(Revolved(CENTRE, ArcProfile(0.0, 0.35, 0.12, side)) for side in (1, -1))
+    points, model = known(Stack(np.array([-0.12, 0.12]), (Run(walls, 1),)))
+    model = natural_joins(tied(model, [((0, 0, k), (0, 1, k)) for k in range(5)]))
+    assert (model.size, model.joins) == (5, ("pole", "pole"))
+    found = evaluate(points, model)
+    assert np.abs(found.score / np.sqrt(np.maximum(np.diag(found.information), 1e-12)))[:5].max() < 3
+    larger = joined(model.moved(model.vector + [0, 0, 0, 0.01, 0], model.stack.breaks))
+    assert value_of(points, larger) < value_of(points, model)
 
 
 def test_what_lies_deep_inside_is_left_out_and_the_rest_is_not() -> None:

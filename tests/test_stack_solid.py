@@ -118,7 +118,15 @@ CASES: dict[str, tuple[Stack, dict[str, int]]] = {
     ),
     "ring": (
         stack([0, 0.2], Run((torus(0.1, 0.4, 0.1), torus(0.1, 0.4, 0.1, -1)), 1)),
-        {"ToroidalSurface": 2},
+        {"ToroidalSurface": 1},
+    ),
+    "half a ring": (
+        stack([0.1, 0.3], Run((torus(0.1, 0.4, 0.2), torus(0.1, 0.4, 0.2, -1)), 1)),
+        {"ToroidalSurface": 2, "Plane": 1},
+    ),
+    "ring on a plate": (
+        stack([0, 0.1, 0.3], cylinder(0.7), Run((torus(0.15, 0.4, 0.15), torus(0.15, 0.4, 0.15, -1)), 1)),
+        {"ToroidalSurface": 2, "Plane": 3, "CylindricalSurface": 1},
     ),
     "lemon": (stack([-0.5, 0.5], torus(0, -0.1, 0.4)), {"SurfaceOfRevolution": 1}),
     "vase": (stack([0, 1], vase()), {"Plane": 2, "SurfaceOfRevolution": 1}),
@@ -268,7 +276,9 @@ def test_volumes_are_the_known_ones() -> None:
     assert solid_of(stack([-0.5, 0.5], sphere(0, 0.4))).volume == pytest.approx(4 / 3 * np.pi * 0.4**3)
 
 
-@pytest.mark.parametrize("name", ["three spheres", "lamp", "loft on a loft", "twisted to a point", "lemon"])
+@pytest.mark.parametrize(
+    "name", ["three spheres", "lamp", "loft on a loft", "twisted to a point", "lemon", "ring"]
+)
 def test_a_placed_stack_survives_a_step_file(name: str, tmp_path: Path) -> None:
     case, faces = CASES[name]
     turn = np.linalg.qr(np.random.default_rng(0).normal(size=(3, 3)))[0]

@@ -12,6 +12,7 @@ from sketchloft.cloud import Floats
 from sketchloft.wall.filleted import Filleted
 from sketchloft.wall.foot import WallBoundary
 from sketchloft.wall.lofted import Lofted
+from sketchloft.wall.profile import ArcProfile
 from sketchloft.wall.revolved import Revolved
 from sketchloft.wall.ruled import Ruled
 from sketchloft.wall.swept import Swept
@@ -47,6 +48,21 @@ class Run:
     def area(self, heights: Floats) -> Floats:
         """Area of the sections at heights (m,), without the holes."""
         return np.asarray(sum(self.sign(i) * wall.area(heights) for i, wall in enumerate(self.walls)))
+
+    @property
+    def torus(self) -> Revolved | None:
+        """The outer wall of a run whose two walls are the halves of one torus; None for other runs."""
+        if len(self.walls) != 2 or self.holes != 1:
+            return None
+        outer, inner = self.walls
+        if not isinstance(outer, Revolved) or not isinstance(inner, Revolved):
+            return None
+        if not isinstance(outer.profile, ArcProfile) or outer.profile.side != 1:
+            return None
+        is_one = inner.profile == replace(outer.profile, side=-1) and np.array_equal(
+            inner.centre, outer.centre
+        )
+        return outer if is_one else None
 
 
 @dataclass(frozen=True)

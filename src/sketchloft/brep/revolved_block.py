@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 from OCP.BRep import BRep_Tool
-from OCP.BRepPrimAPI import BRepPrimAPI_MakeRevol
+from OCP.BRepPrimAPI import BRepPrimAPI_MakeRevol, BRepPrimAPI_MakeTorus
 from OCP.Convert import Convert_ParameterisationType
 from OCP.Geom import Geom_Circle, Geom_Line, Geom_Plane, Geom_TrimmedCurve
 from OCP.GeomConvert import GeomConvert
@@ -22,8 +22,9 @@ from sketchloft.brep.meridian import Piece, Straight
 from sketchloft.brep.shell_parts import CurvePart, edge, edge_against, planar_face, vertex
 from sketchloft.cloud import Floats
 from sketchloft.wall.profile import ArcProfile, SplineProfile
+from sketchloft.wall.revolved import Revolved
 
-__all__ = ["axis_at", "half_plane_point", "profile_edge", "revolved_block"]
+__all__ = ["axis_at", "half_plane_point", "profile_edge", "revolved_block", "torus_block"]
 
 
 def revolved_block(outer: Sequence[Piece], inner: Sequence[Piece], centre: Floats) -> Block:
@@ -51,6 +52,16 @@ def revolved_block(outer: Sequence[Piece], inner: Sequence[Piece], centre: Float
     for face in faces_of(turned):
         level = _level(face, (low, high))
         (block.walls if level is None else block.bottom if level == low else block.top).append(face)
+    return block
+
+
+def torus_block(wall: Revolved) -> Block:
+    """The one face of a torus that a wall is the outer half of."""
+    block = Block([], [], [])
+    if isinstance(wall.profile, ArcProfile) and wall.profile.offset is not None:
+        axes = gp_Ax3(point((*wall.centre, wall.profile.height)), gp_Dir(0, 0, 1))
+        made = BRepPrimAPI_MakeTorus(axes.Ax2(), wall.profile.offset, wall.profile.radius)
+        block.walls.extend(faces_of(made.Shape()))
     return block
 
 

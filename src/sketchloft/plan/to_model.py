@@ -30,7 +30,7 @@ SLACK = 1e-8
 MEANING = {
     "cross": "the walls of the runs beside it do not cross there",
     "tangent": "neither of the walls beside it is an arc alone in its run",
-    "pole": "the wall beside it is no arc alone in its run",
+    "pole": "the wall beside it is no arc alone in its run, nor half of a whole torus",
 }
 
 

@@ -27,6 +27,8 @@ JOINS = {
 
 def run_words(run: Run) -> str:
     """Kinds of the walls of a run: "2 x rectangle", "cylinder, hole cylinder"."""
+    if run.torus is not None:
+        return "whole torus"
     outer = len(run.walls) - run.holes
     parts = [kinds([wall.kind for wall in run.walls[:outer]])]
     if run.holes:

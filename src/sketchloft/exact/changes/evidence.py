@@ -10,6 +10,7 @@ from sketchloft.exact.changes.filleted_walls import filleted
 from sketchloft.exact.changes.free_outlines import with_poles_that_pay
 from sketchloft.exact.changes.free_profiles import splined
 from sketchloft.exact.changes.free_walls import lofted, ruled
+from sketchloft.exact.changes.rings import rings
 from sketchloft.exact.changes.trial import Change, tried, worth
 from sketchloft.exact.model.exact_model import ExactModel
 
@@ -72,6 +73,7 @@ def _changed(points: Floats, model: ExactModel, together: float, *, lofts: bool)
     for _ in range(ROUNDS):
         before = model
         model = _through(points, model, together, merges, failed, again=True)
+        model = _through(points, model, together, rings, failed)
         model = _through(points, model, together, fillings, failed)
         model = _through(points, model, together, closings, failed)
         model = splined(points, model, together)

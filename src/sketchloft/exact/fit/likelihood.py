@@ -20,6 +20,8 @@ __all__ = ["Evaluation", "beside_walls", "evaluate", "share_of", "value_of"]
 
 REACH = 5.0
 """Noise deviations beyond which a wall is taken to be a sharp step."""
+FAR = 100.0
+"""Noise deviations that are deep inside."""
 
 
 @dataclass(frozen=True)
@@ -119,6 +121,8 @@ def _inside(
     reach[walls:-1] = 1.0
     for j in range(len(stack.runs)):
         ends = heights[[j, j + 1]]
+        if stack.runs[j].torus is not None:  # it ends where its walls turn into each other, at no cap
+            ends = np.where([join == "pole" for join in model.joins[j : j + 2]], [-np.inf, np.inf], ends)
         first, last = np.searchsorted(z, ends + np.array([-REACH, REACH]) * sigma).tolist()
         if first == last:
             continue
@@ -171,6 +175,10 @@ def _section(
         -sign * (foot.distance + sigma**2 / 2 * foot.curvature)
         for sign, foot in zip(signs, feet, strict=True)
     ]
+    if run.torus is not None:  # each wall is one to the points on its own side only
+        outside = run.torus.beyond(points)
+        sides = (outside, ~outside)
+        depth = [np.where(side, d, FAR * sigma) for side, d in zip(sides, depth, strict=True)]
     soft = [ndtr(d / sigma) for d in depth]
     pieces = len(soft) - run.holes
     outer = np.sum(soft[:pieces], axis=0) if pieces else np.ones(len(points))

@@ -36,7 +36,7 @@ class ExactModel:
         Volume that strays are spread over.
     joins : tuple of {"step", "cross", "tangent", "pole"}
         What each break is: a free plane; where the walls cross; where an arc ends tangent to a line; or
-        where an arc meets the axis.
+        where an arc meets the axis or the other half of a torus.
     core : (m, 4) float array or None
         Places inside that no point is given for, as when only those near the walls are looked at, and the
         volumes that they stand for.

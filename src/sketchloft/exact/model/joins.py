@@ -88,12 +88,17 @@ def poles(wall: Wall) -> tuple[float, float]:
 def end_pole(run: Run, side: int) -> float | None:
     """Height at which the wall of a run, if it has one only, meets its axis as a sphere or a dome does.
 
+    A run that is a whole torus ends where its two walls meet.
+
     Parameters
     ----------
     run : Run
     side : {-1, 1}
         Below or above.
     """
+    torus = run.torus
+    if torus is not None and isinstance(torus.profile, ArcProfile):
+        return torus.profile.height + side * torus.profile.radius
     pole = poles(run.walls[0])[side > 0]
     return pole if len(run.walls) == 1 and np.isfinite(pole) else None
 

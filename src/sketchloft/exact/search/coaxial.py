@@ -54,7 +54,9 @@ def coaxial(
     turned = points @ turn
     pairs = [((*places[0], k), (*place, k)) for place in places[1:] for k in (0, 1)] + _tangents(model)
     near = turned[beside_walls(turned, model, BESIDE * model.sigma)]
-    change, _, rotation = climb(near, tied(model, pairs), 12, tilt=tilt)
+    rings = _rings(model)
+    start = natural_joins(tied(model, pairs + rings)) if rings else tied(model, pairs)
+    change, _, rotation = climb(near, start, 12, tilt=tilt)
     change = natural_joins(change)
     turned, count = turned @ rotation, len(points)
     pays = worth(turned, change, together, count) > worth(points, model, together, count)
@@ -76,6 +78,16 @@ def _tangents(model: ExactModel) -> list[tuple[tuple[int, int, int], tuple[int, 
     place = {"cylinder": 2, "sphere": 3}
     radius = [(j, 0, place.get(run.walls[0].kind, 0)) for j, run in enumerate(model.stack.runs)]
     return [(radius[k - 1], radius[k]) for k, join in enumerate(model.joins) if join == "tangent"]
+
+
+def _rings(model: ExactModel) -> list[tuple[tuple[int, int, int], tuple[int, int, int]]]:
+    """Heights, radii and offsets of the two walls of a run that may be the halves of one torus."""
+    return [
+        ((j, 0, k), (j, 1, k))
+        for j, run in enumerate(model.stack.runs)
+        if run.holes == 1 and [wall.kind for wall in run.walls] == ["torus", "torus"]
+        for k in (2, 3, 4)
+    ]
 
 
 def _through_centres(model: ExactModel, places: list[tuple[int, int]]) -> Floats:

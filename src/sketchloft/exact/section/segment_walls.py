@@ -25,7 +25,7 @@ from sketchloft.wall.profile import ArcProfile, LineProfile, SplineProfile
 from sketchloft.wall.revolved import Revolved
 from sketchloft.wall.swept import Freedom, Swept
 
-__all__ = ["segment_run"]
+__all__ = ["segment_run", "tori"]
 
 MOST_POINTS = 3000
 REACH = 0.03
@@ -146,7 +146,7 @@ def _revolved(plan: PlanView, circle: Circle, ends: tuple[float, float], *, chan
             profiles.append(ArcProfile(height + shrink, None, float(np.hypot(radius, shrink))))
         z = np.linspace(*ends, 24)
         r = radius * np.sqrt(np.maximum(1 + first * (z - height) + second * (z - height) ** 2, 0.01))
-        profiles.extend(_tori(z, r))
+        profiles.extend(tori(z, r))
         margin = 0.1 * (ends[1] - ends[0]) + REACH
         knots = even_knots(ends[0] - margin, ends[1] + margin, 3)
         basis = basis_matrix(knots, 3, z)
@@ -154,7 +154,7 @@ def _revolved(plan: PlanView, circle: Circle, ends: tuple[float, float], *, chan
     return [Revolved(circle.centre, profile) for profile in profiles]
 
 
-def _tori(z: Floats, r: Floats) -> list[ArcProfile]:
+def tori(z: Floats, r: Floats) -> list[ArcProfile]:
     """Arc through the profile, its centre off the axis."""
     rows = np.column_stack([r, z, np.ones(len(z))])
     solution = np.linalg.lstsq(rows, r**2 + z**2, rcond=None)[0]

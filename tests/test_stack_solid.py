@@ -276,9 +276,10 @@ def test_volumes_are_the_known_ones() -> None:
     assert solid_of(stack([-0.5, 0.5], sphere(0, 0.4))).volume == pytest.approx(4 / 3 * np.pi * 0.4**3)
 
 
-@pytest.mark.parametrize(
-    "name", ["three spheres", "lamp", "loft on a loft", "twisted to a point", "lemon", "ring"]
-)
+READ_BACK = ["three spheres", "lamp", "loft on a loft", "twisted to a point", "lemon", "ring"]
+
+
+@pytest.mark.parametrize("name", READ_BACK)
 def test_a_placed_stack_survives_a_step_file(name: str, tmp_path: Path) -> None:
     case, faces = CASES[name]
     turn = np.linalg.qr(np.random.default_rng(0).normal(size=(3, 3)))[0]

@@ -9,7 +9,7 @@ from sketchloft.exact.model.density import Density
 from sketchloft.exact.model.exact_model import ExactModel, model_of
 from sketchloft.exact.model.joins import crossing, joined, natural_joins
 from sketchloft.stack import Run, Stack
-from sketchloft.wall.profile import ArcProfile, LineProfile, Profile
+from sketchloft.wall.profile import ArcProfile, LineProfile, Profile, SplineProfile
 from sketchloft.wall.revolved import Revolved
 
 AXIS = np.array([0.02, -0.01])
@@ -44,6 +44,13 @@ def test_a_cone_and_a_cylinder_cross_once() -> None:
     cone, cylinder = run(LineProfile(0.0, 0.3, -0.5)), run(LineProfile(0.0, 0.2, None))
     assert crossing(cone, cylinder, 0.15, 0.2) == pytest.approx(0.2, abs=1e-9)
     assert crossing(cylinder, run(LineProfile(0.0, 0.25, None)), 0.1, 0.5) is None
+
+
+def test_profiles_cross_only_where_both_are_given() -> None:
+    knots = np.r_[[-0.3] * 4, [0.05] * 4]
+    short = run(SplineProfile(knots, np.array([0.3, 0.28, 0.25, 0.22])))
+    assert crossing(short, run(LineProfile(0.0, 0.1, None)), 0.02, 0.2) is None
+    assert crossing(short, run(LineProfile(0.0, 0.24, None)), 0.02, 0.2) == pytest.approx(-0.031, abs=0.01)
 
 
 def test_breaks_go_where_the_walls_say() -> None:

@@ -73,8 +73,8 @@ def _changed(points: Floats, model: ExactModel, together: float, *, lofts: bool)
     for _ in range(ROUNDS):
         before = model
         model = _through(points, model, together, merges, failed, again=True)
-        model = _through(points, model, together, rings, failed)
         model = _through(points, model, together, fillings, failed)
+        model = _through(points, model, together, rings, failed)
         model = _through(points, model, together, closings, failed)
         model = splined(points, model, together)
         model = _through(points, model, together, lambda m: splits(points, m, together), failed)

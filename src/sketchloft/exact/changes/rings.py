@@ -8,6 +8,7 @@ import numpy as np
 
 from sketchloft.exact.changes.trial import Change
 from sketchloft.exact.model.exact_model import ExactModel
+from sketchloft.exact.model.soundness import sound
 from sketchloft.exact.model.surgery import with_runs
 from sketchloft.exact.section.segment_walls import tori
 from sketchloft.stack import Run, section_boundary
@@ -25,7 +26,9 @@ REACH = 1.05
 
 
 def rings(model: ExactModel) -> Iterator[Change]:
-    """A ring in the place of each run with one hole, or of two such runs."""
+    """A ring in the place of each run with one hole, or of two such runs, where what is there is sound."""
+    if not sound(model):  # anything would be better
+        return
     runs = model.stack.runs
     for first in range(len(runs)):
         for last in reversed(range(first, min(first + MOST_RUNS, len(runs)))):

@@ -9,7 +9,7 @@ import numpy as np
 from sketchloft.cloud import Floats
 from sketchloft.exact.model.exact_model import ExactModel, Join
 from sketchloft.stack import Run, Wall
-from sketchloft.wall.profile import ArcProfile
+from sketchloft.wall.profile import ArcProfile, Profile, SplineProfile
 from sketchloft.wall.revolved import Revolved, radius_at
 from sketchloft.wall.swept import Swept
 
@@ -116,6 +116,9 @@ def crossing(below: Run, above: Run, height: float, reach: float) -> float | Non
     if first is None or second is None:
         return None
     z = height + reach * np.linspace(-1, 1, 65)
+    for wall in (first, second):
+        low, high = _ends(wall.profile)
+        z = z[(z >= low) & (z <= high)]
     for _ in range(6):
         gap = _gap(first, second, z)
         change = np.flatnonzero(gap[:-1] * gap[1:] <= 0)
@@ -124,6 +127,15 @@ def crossing(below: Run, above: Run, height: float, reach: float) -> float | Non
         i = change[np.argmin(np.abs((z[change] + z[change + 1]) / 2 - height))]
         z = np.linspace(z[i], z[i + 1], 65)
     return float(z[32])
+
+
+def _ends(profile: Profile) -> tuple[float, float]:
+    """Heights between which a profile is given."""
+    if isinstance(profile, SplineProfile):
+        return float(profile.knots[0]), float(profile.knots[-1])
+    if isinstance(profile, ArcProfile):
+        return profile.height - profile.radius, profile.height + profile.radius
+    return -np.inf, np.inf
 
 
 def _gap(first: Revolved, second: Revolved, z: Floats) -> Floats:

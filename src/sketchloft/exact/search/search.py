@@ -18,6 +18,7 @@ from sketchloft.exact.fit.likelihood import beside_walls
 from sketchloft.exact.fit.sharpen import least_noise, sharpened
 from sketchloft.exact.model.exact_model import ExactModel, thicker
 from sketchloft.exact.model.joins import natural_joins
+from sketchloft.exact.model.soundness import sound
 from sketchloft.exact.search.coaxial import coaxial
 from sketchloft.exact.search.flush import flush
 from sketchloft.exact.search.resection import resectioned
@@ -105,7 +106,9 @@ def searched(starts: tuple[Start, ...], *, tilt: bool, progress: Callable[[str],
 def _found(start: Start, *, tilt: bool, lofts: bool, progress: Callable[[str], None]) -> Found:
     """Find the runs on a sample and fit them to all points."""
     sample, together, model = start.sample, start.together, start.settled
-    model = natural_joins(replace(natural_joins(model), sigma=max(model.sigma, AT_LEAST)))
+    blurred = max(model.sigma, AT_LEAST)
+    natural = natural_joins(replace(natural_joins(model), sigma=blurred))
+    model = natural if sound(natural) else replace(model, sigma=blurred)
     model, _, _ = climb(sample[beside_walls(sample, model, BESIDE * model.sigma)], model, 8)
     turn = np.eye(3)
     if tilt:
@@ -131,6 +134,6 @@ def _found(start: Start, *, tilt: bool, lofts: bool, progress: Callable[[str], N
     model = thicker(without_gap(model, least_noise(model, len(points))), 1 / every)
     model = flush(sample @ turn, model, together)
     value = worth(sample @ turn, model, together, len(sample))
-    blurred = replace(model, sigma=max(model.sigma, AT_LEAST))
-    left = misfit(sample @ turn, blurred, range(len(model.stack.runs)), together)
+    soft = replace(model, sigma=max(model.sigma, AT_LEAST))
+    left = misfit(sample @ turn, soft, range(len(model.stack.runs)), together)
     return Found(start, thicker(model, every), points, start.settling @ turn, value, left)

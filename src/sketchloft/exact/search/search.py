@@ -79,9 +79,9 @@ def searched(starts: tuple[Start, ...], *, tilt: bool, progress: Callable[[str],
 
     Notes
     -----
-    The first is searched for from the best start; where the points have something against its walls from the
-    next start, too, and where strokes leave them blurred from the next and the sharpest. Each end with a free
-    loft is followed by one without.
+    The first is searched for from the best start; where the points have something against its walls, or a free
+    loft beside other runs hides what they have, from the next start, too, and where strokes leave them blurred
+    from the next and the sharpest. Each end with a free loft is followed by one without.
     """
 
     def search(start: Start, *, lofts: bool = True) -> Found:
@@ -89,7 +89,7 @@ def searched(starts: tuple[Start, ...], *, tilt: bool, progress: Callable[[str],
 
     found = [search(starts[0])]
     others = list(starts[1:])
-    if others and starts[0].together == 1 and found[0].misfit > WRONG:
+    if others and starts[0].together == 1 and (found[0].misfit > WRONG or _patched(found[0].model)):
         found.append(search(others.pop(0)))
     elif others and starts[0].together > 1 and found[0].model.sigma >= BLURRED:
         sharpest = min(others, key=lambda start: start.merged.sigma)
@@ -101,6 +101,12 @@ def searched(starts: tuple[Start, ...], *, tilt: bool, progress: Callable[[str],
         yield end
         if any(isinstance(wall, Lofted) for run in end.model.stack.runs for wall in run.walls):
             yield search(end.start, lofts=False)
+
+
+def _patched(model: ExactModel) -> bool:
+    """Whether a free loft lies beside other runs, as it may where a simpler thing is seen from its side."""
+    runs = model.stack.runs
+    return len(runs) > 1 and any(isinstance(wall, Lofted) for run in runs for wall in run.walls)
 
 
 def _found(start: Start, *, tilt: bool, lofts: bool, progress: Callable[[str], None]) -> Found:

@@ -79,9 +79,9 @@ def searched(starts: tuple[Start, ...], *, tilt: bool, progress: Callable[[str],
 
     Notes
     -----
-    The first is searched for from the best start; where the points have something against its walls, or a free
-    loft beside other runs hides what they have, from the next start, too, and where strokes leave them blurred
-    from the next and the sharpest. Each end with a free loft is followed by one without.
+    The first is searched for from the best start. Others are from the next one, where the points have
+    something against its walls or a free loft beside other runs hides what they have; and from the next and
+    the sharpest, where strokes leave its walls blurred. Each end with a free loft is followed by one without.
     """
 
     def search(start: Start, *, lofts: bool = True) -> Found:

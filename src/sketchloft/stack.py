@@ -12,10 +12,10 @@ from sketchloft.cloud import Floats
 from sketchloft.wall.filleted import Filleted
 from sketchloft.wall.foot import WallBoundary
 from sketchloft.wall.lofted import Lofted
-from sketchloft.wall.profile import ArcProfile
 from sketchloft.wall.revolved import Revolved
 from sketchloft.wall.ruled import Ruled
 from sketchloft.wall.swept import Swept
+from sketchloft.wall.torus import Torus, torus_of
 
 __all__ = ["THIN", "Run", "Stack", "Wall", "section_boundary", "spanned"]
 
@@ -50,19 +50,9 @@ class Run:
         return np.asarray(sum(self.sign(i) * wall.area(heights) for i, wall in enumerate(self.walls)))
 
     @property
-    def torus(self) -> Revolved | None:
-        """The outer wall of a run whose two walls are the halves of one torus; None for other runs."""
-        if len(self.walls) != 2 or self.holes != 1:
-            return None
-        outer, inner = self.walls
-        if not isinstance(outer, Revolved) or not isinstance(inner, Revolved):
-            return None
-        if not isinstance(outer.profile, ArcProfile) or outer.profile.side != 1:
-            return None
-        is_one = inner.profile == replace(outer.profile, side=-1) and np.array_equal(
-            inner.centre, outer.centre
-        )
-        return outer if is_one else None
+    def torus(self) -> Torus | None:
+        """The torus that an outer wall and its hole are the halves of; None for other runs."""
+        return torus_of(*self.walls) if len(self.walls) == 2 and self.holes else None
 
 
 @dataclass(frozen=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import TypeGuard
 
 import numpy as np
 
@@ -20,6 +21,9 @@ MEET = 1e-6
 """Difference of radius, as a share of the size, up to which neighbouring walls meet without a ledge."""
 REACH = 10 * MEET
 """How far from a break, as a share of the size, walls may truly cross, or come down to the axis."""
+
+TURN = 1e-12
+"""Distance from the height where an arc turns back, as a share of its radius, that is none."""
 
 
 @dataclass(frozen=True)
@@ -118,7 +122,14 @@ def _radius(profile: Profile | Straight, z: float) -> float:
 
 
 def _on(profile: Profile | Straight, z: float) -> Floats:
-    return np.array([_radius(profile, z), z])
+    return np.array([profile.offset if _turns_back(profile, z) else _radius(profile, z), z])
+
+
+def _turns_back(profile: Profile | Straight, z: float) -> TypeGuard[ArcProfile]:
+    """Whether an arc is level at a height: rounding is magnified there, and the other half may begin."""
+    if not isinstance(profile, ArcProfile) or profile.offset is None:
+        return False
+    return abs(abs(z - profile.height) - profile.radius) < TURN * profile.radius
 
 
 def _joint(

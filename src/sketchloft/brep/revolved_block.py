@@ -22,7 +22,7 @@ from sketchloft.brep.meridian import Piece, Straight
 from sketchloft.brep.shell_parts import CurvePart, edge, edge_against, planar_face, vertex
 from sketchloft.cloud import Floats
 from sketchloft.wall.profile import ArcProfile, SplineProfile
-from sketchloft.wall.revolved import Revolved
+from sketchloft.wall.torus import Torus
 
 __all__ = ["axis_at", "half_plane_point", "profile_edge", "revolved_block", "torus_block"]
 
@@ -55,14 +55,10 @@ def revolved_block(outer: Sequence[Piece], inner: Sequence[Piece], centre: Float
     return block
 
 
-def torus_block(wall: Revolved) -> Block:
-    """The one face of a torus that a wall is the outer half of."""
-    block = Block([], [], [])
-    if isinstance(wall.profile, ArcProfile) and wall.profile.offset is not None:
-        axes = gp_Ax3(point((*wall.centre, wall.profile.height)), gp_Dir(0, 0, 1))
-        made = BRepPrimAPI_MakeTorus(axes.Ax2(), wall.profile.offset, wall.profile.radius)
-        block.walls.extend(faces_of(made.Shape()))
-    return block
+def torus_block(torus: Torus) -> Block:
+    """The one face of a torus."""
+    axes = gp_Ax3(point((*torus.centre, torus.height)), gp_Dir(0, 0, 1))
+    return Block(faces_of(BRepPrimAPI_MakeTorus(axes.Ax2(), torus.offset, torus.radius).Shape()), [], [])
 
 
 def _level(face: TopoDS_Face, heights: tuple[float, float]) -> float | None:

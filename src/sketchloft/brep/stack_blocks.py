@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -13,7 +12,6 @@ from sketchloft.brep.revolved_block import revolved_block, torus_block
 from sketchloft.brep.run_block import run_block
 from sketchloft.cloud import Floats
 from sketchloft.stack import Run, Stack
-from sketchloft.wall.profile import ArcProfile
 from sketchloft.wall.revolved import Revolved
 
 __all__ = ["Group", "block_of", "groups_of"]
@@ -63,25 +61,18 @@ def _centre(run: Run) -> Floats | None:
 
 
 def _turned(runs: Sequence[Run], breaks: Floats, size: float) -> Block:
-    rims = [_rim(runs[k], float(breaks[i])) for k, i in ((0, 0), (-1, -1))]
     walls = [[wall for wall in run.walls if isinstance(wall, Revolved)] for run in runs]
-    if len(runs) == 1 and all(rim is not None for rim in rims):
-        return torus_block(walls[0][0])
     outer = meridian([pair[0].profile for pair in walls], breaks, size)
     if any(len(pair) > 1 for pair in walls):
         inner = meridian([pair[1].profile if len(pair) > 1 else Straight() for pair in walls], breaks, size)
     else:
         foot, head = (np.array([0.0, end[1]]) for end in (outer[0].start, outer[-1].end))
         inner = [Piece(Straight(), foot, head)]
-    for side in (outer, inner):
-        side[0] = side[0] if rims[0] is None else replace(side[0], start=rims[0])
-        side[-1] = side[-1] if rims[1] is None else replace(side[-1], end=rims[1])
+    torus = runs[0].torus
+    if torus is not None and len(outer) == 1 and _ends(outer) == _ends(inner):
+        return torus_block(torus)
     return revolved_block(outer, inner, walls[0][0].centre)
 
 
-def _rim(run: Run, height: float) -> Floats | None:
-    """Radius and height of the circle where both halves of a torus end, if they do so at a height."""
-    arc = None if run.torus is None else run.torus.profile
-    if not isinstance(arc, ArcProfile) or abs(abs(height - arc.height) - arc.radius) > COAXIAL:
-        return None
-    return np.array([arc.offset, height])
+def _ends(pieces: Sequence[Piece]) -> list[list[float]]:
+    return [pieces[0].start.tolist(), pieces[-1].end.tolist()]

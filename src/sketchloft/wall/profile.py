@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import ClassVar
 
 from sketchloft.cloud import Floats
 
-__all__ = ["ArcProfile", "LineProfile", "Profile", "SplineProfile"]
+__all__ = ["ArcProfile", "LineProfile", "Profile", "SplineProfile", "ends_of"]
 
 
 @dataclass(frozen=True)
@@ -65,3 +66,12 @@ class SplineProfile:
 
 
 Profile = LineProfile | ArcProfile | SplineProfile
+
+
+def ends_of(profile: Profile) -> tuple[float, float]:
+    """Heights between which a profile is given; infinite for lines."""
+    if isinstance(profile, SplineProfile):
+        return float(profile.knots[0]), float(profile.knots[-1])
+    if isinstance(profile, ArcProfile):
+        return profile.height - profile.radius, profile.height + profile.radius
+    return -math.inf, math.inf

@@ -6,7 +6,6 @@ from dataclasses import dataclass, replace
 from typing import Self
 
 import numpy as np
-from numpy.typing import NDArray
 
 from sketchloft.cloud import Floats
 from sketchloft.surface import basis_matrix
@@ -61,11 +60,6 @@ class Revolved:
     def area(self, heights: Floats) -> Floats:
         """Area of the sections at heights (m,)."""
         return np.pi * radius_at(self.profile, heights)[0] ** 2
-
-    def beyond(self, points: Floats) -> NDArray[np.bool_]:
-        """(n,) whether points (n, 3) are farther from the axis than the centre of an arc."""
-        offset = self.profile.offset if isinstance(self.profile, ArcProfile) else None
-        return np.asarray(np.hypot(*(points[:, :2] - self.centre).T) > (offset or 0.0))
 
     def foot(self, points: Floats) -> WallFoot:
         """Signed distance of points (n, 3), and its derivatives."""

@@ -9,7 +9,7 @@ import numpy as np
 from sketchloft.cloud import Floats
 from sketchloft.exact.model.exact_model import ExactModel, Join
 from sketchloft.stack import Run, Wall
-from sketchloft.wall.profile import ArcProfile, Profile, SplineProfile
+from sketchloft.wall.profile import ArcProfile, ends_of
 from sketchloft.wall.revolved import Revolved, radius_at
 from sketchloft.wall.swept import Swept
 
@@ -81,7 +81,7 @@ def poles(wall: Wall) -> tuple[float, float]:
     if isinstance(wall, Swept) and wall.bows:
         return wall.tips()
     if isinstance(wall, Revolved) and isinstance(wall.profile, ArcProfile) and wall.profile.offset is None:
-        return wall.profile.height - wall.profile.radius, wall.profile.height + wall.profile.radius
+        return ends_of(wall.profile)
     return -np.inf, np.inf
 
 
@@ -97,8 +97,8 @@ def end_pole(run: Run, side: int) -> float | None:
         Below or above.
     """
     torus = run.torus
-    if torus is not None and isinstance(torus.profile, ArcProfile):
-        return torus.profile.height + side * torus.profile.radius
+    if torus is not None:
+        return torus.height + side * torus.radius
     pole = poles(run.walls[0])[side > 0]
     return pole if len(run.walls) == 1 and np.isfinite(pole) else None
 
@@ -117,7 +117,7 @@ def crossing(below: Run, above: Run, height: float, reach: float) -> float | Non
         return None
     z = height + reach * np.linspace(-1, 1, 65)
     for wall in (first, second):
-        low, high = _ends(wall.profile)
+        low, high = ends_of(wall.profile)
         z = z[(z >= low) & (z <= high)]
     for _ in range(6):
         gap = _gap(first, second, z)
@@ -127,15 +127,6 @@ def crossing(below: Run, above: Run, height: float, reach: float) -> float | Non
         i = change[np.argmin(np.abs((z[change] + z[change + 1]) / 2 - height))]
         z = np.linspace(z[i], z[i + 1], 65)
     return float(z[32])
-
-
-def _ends(profile: Profile) -> tuple[float, float]:
-    """Heights between which a profile is given."""
-    if isinstance(profile, SplineProfile):
-        return float(profile.knots[0]), float(profile.knots[-1])
-    if isinstance(profile, ArcProfile):
-        return profile.height - profile.radius, profile.height + profile.radius
-    return -np.inf, np.inf
 
 
 def _gap(first: Revolved, second: Revolved, z: Floats) -> Floats:

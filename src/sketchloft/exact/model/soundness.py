@@ -17,7 +17,7 @@ from sketchloft.outline.spline_loop import SplineLoop
 from sketchloft.stack import Run, Wall, section_boundary
 from sketchloft.wall.filleted import Filleted
 from sketchloft.wall.lofted import Lofted
-from sketchloft.wall.profile import ArcProfile, SplineProfile
+from sketchloft.wall.profile import ends_of
 from sketchloft.wall.revolved import Revolved
 from sketchloft.wall.ruled import SAMPLES, Ruled
 from sketchloft.wall.swept import Swept
@@ -127,16 +127,11 @@ def covers(wall: Wall, low: float, high: float) -> bool:
     ends = (-np.inf, np.inf)
     if isinstance(wall, Lofted):
         ends = wall.knots[0], wall.knots[-1]
-    if isinstance(wall, Revolved) and isinstance(wall.profile, SplineProfile):
-        ends = wall.profile.knots[0], wall.profile.knots[-1]
-        if not (wall.area(np.linspace(low, high, LEVELS)) > 0).all():
+    if isinstance(wall, Revolved):
+        if wall.kind != "sphere":  # which may end before its run does
+            ends = ends_of(wall.profile)
+        if wall.kind == "spline revolve" and not (wall.area(np.linspace(low, high, LEVELS)) > 0).all():
             return False
-    if (
-        isinstance(wall, Revolved)
-        and isinstance(wall.profile, ArcProfile)
-        and wall.profile.offset is not None
-    ):
-        ends = wall.profile.height - wall.profile.radius, wall.profile.height + wall.profile.radius
     if isinstance(wall, Filleted):
         return _fits(wall.between(low, high))
     return bool(ends[0] <= low and high <= ends[1])

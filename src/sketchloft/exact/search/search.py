@@ -112,9 +112,9 @@ def _patched(model: ExactModel) -> bool:
 def _found(start: Start, *, tilt: bool, lofts: bool, progress: Callable[[str], None]) -> Found:
     """Find the runs on a sample and fit them to all points."""
     sample, together, model = start.sample, start.together, start.settled
-    blurred = max(model.sigma, AT_LEAST)
-    natural = natural_joins(replace(natural_joins(model), sigma=blurred))
-    model = natural if sound(natural) else replace(model, sigma=blurred)
+    sigma = max(model.sigma, AT_LEAST)
+    natural = natural_joins(replace(natural_joins(model), sigma=sigma))
+    model = natural if sound(natural) else replace(model, sigma=sigma)
     model, _, _ = climb(sample[beside_walls(sample, model, BESIDE * model.sigma)], model, 8)
     turn = np.eye(3)
     if tilt:
@@ -140,6 +140,6 @@ def _found(start: Start, *, tilt: bool, lofts: bool, progress: Callable[[str], N
     model = thicker(without_gap(model, least_noise(model, len(points))), 1 / every)
     model = flush(sample @ turn, model, together)
     value = worth(sample @ turn, model, together, len(sample))
-    soft = replace(model, sigma=max(model.sigma, AT_LEAST))
-    left = misfit(sample @ turn, soft, range(len(model.stack.runs)), together)
+    blurred = replace(model, sigma=max(model.sigma, AT_LEAST))
+    left = misfit(sample @ turn, blurred, range(len(model.stack.runs)), together)
     return Found(start, thicker(model, every), points, start.settling @ turn, value, left)

@@ -160,7 +160,7 @@ def _attempt_splines(
 
 
 def _may_be_free(tried: list[tuple[float, Outline]]) -> bool:
-    """Whether an outline that stands for a free curve is nearly the best, or so is a stiff spline."""
+    """Whether an outline that is a free curve, or may stand for one, is nearly the best."""
     best = max(value for value, _ in tried)
     return any(may_be_free(outline) and value > best - NEARLY for value, outline in tried)
 

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -14,6 +16,7 @@ from sketchloft.outline.fitted_loop import fitted_loop
 from sketchloft.outline.outline import Arc, Boundary, Closed, Outline, Segment
 from sketchloft.outline.placed_polygons import Rectangle, RegularPolygon, RoundedRectangle
 from sketchloft.outline.polygons import LineArc, Polygon
+from sketchloft.outline.rectilinear import RectilinearPolygon, rectilinear_of, with_a_step_less
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import SplineLoop, spline_loop
 from sketchloft.outline.star import Star, star_in, star_of
@@ -23,6 +26,7 @@ from sketchloft.shapes.spline import ClosedSpline, resampled
 
 CENTRE = np.array([0.3, -0.2])
 ELL = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]]) - 0.8
+STAIRS = np.array([-1.0, 1.4, 1.0, 0.7, 0.4, 0.0, -0.3, -0.8])
 BULGES = np.array([0.0, 0.3, 0.0, -0.5, 0.2, -0.2])
 
 
@@ -47,6 +51,7 @@ OUTLINES: dict[str, Outline] = {
     "circle of four even arcs": DividedCircle(CENTRE, 1.1, 0.3, 0.0),
     "circle of four arcs": DividedCircle(CENTRE, 1.1, 0.3, 0.2),
     "polygon": Polygon(ELL),
+    "rectilinear polygon": RectilinearPolygon(STAIRS, 0.3),
     "rounded polygon": RoundedPolygon(ELL, 0.2),
     "line-arc": LineArc(ELL, BULGES, np.array([False, True, False, True, True, True])),
     "two arcs": LineArc(np.array([[-1.0, 0.0], [1.0, 0.0]]), np.array([0.4, 1.8]), np.ones(2, bool)),
@@ -263,3 +268,39 @@ def test_a_star_is_found_from_its_corners_and_an_l_is_none() -> None:
     assert star_in(resampled(RegularPolygon(CENTRE, 1.0, 0.3, 5).chain()[0], 300)) is None
     corners = np.array([[0, 0], [1, 0], [1, 0.4], [0.4, 0.4], [0.4, 1], [0, 1]])
     assert star_of(corners) is None
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.3, 0.7, 2.0, -3.0])
+def test_right_corners_are_found_in_a_polygon_that_has_them_about(angle: float) -> None:
+    stairs = RectilinearPolygon(STAIRS, angle)
+    corners = stairs.chain()[0]
+    for first in (0, 1, 4):
+        found = rectilinear_of(np.roll(corners, -first, axis=0))
+        assert found is not None
+        assert len(found.offsets) == 8
+        assert found.area == pytest.approx(stairs.area)
+        assert np.abs(stairs.foot(found.chain()[0]).distance).max() < 1e-12
+    shaken = corners + 0.05 * np.random.default_rng(1).normal(size=corners.shape)
+    halved = np.insert(shaken, 1, shaken[:2].mean(axis=0) + 0.03, axis=0)
+    found = rectilinear_of(halved)
+    assert found is not None
+    assert len(found.offsets) == 8
+    assert np.abs(stairs.foot(found.chain()[0]).distance).max() < 0.15
+
+
+def test_polygons_without_right_corners_and_rectangles_are_not_rectilinear() -> None:
+    for sides in (3, 5, 6, 8, 12):
+        assert rectilinear_of(RegularPolygon(CENTRE, 1.0, 0.3, sides).chain()[0]) is None
+    assert rectilinear_of(Rectangle(CENTRE, 2.0, 1.0, 0.4).chain()[0]) is None
+    assert rectilinear_of(Star(CENTRE, 1.0, 0.45, 0.3, 5).chain()[0]) is None
+
+
+def test_the_smallest_step_is_left_out() -> None:
+    stairs = RectilinearPolygon(STAIRS, 0.3)
+    for first in range(0, 8, 2):
+        fewer = with_a_step_less(replace(stairs, offsets=np.roll(STAIRS, -first)))
+        assert fewer is not None
+        assert len(fewer.offsets) == 6
+        assert ring_area(fewer.chain()[0]) > 0
+        assert fewer.area == pytest.approx(stairs.area, rel=0.1)
+        assert with_a_step_less(fewer) is None

@@ -27,6 +27,7 @@ from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.outline import Outline
 from sketchloft.outline.placed_polygons import Rectangle, RegularPolygon, RoundedRectangle
 from sketchloft.outline.polygons import LineArc, Polygon
+from sketchloft.outline.rectilinear import RectilinearPolygon
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import spline_loop
 from sketchloft.outline.star import Star
@@ -66,6 +67,7 @@ OUTLINES: list[Outline] = [
     RoundedRectangle(CENTRE, 0.4, 0.3, 0.4, 0.05),
     RegularPolygon(CENTRE, 0.3, 0.2, 6),
     Star(CENTRE, 0.4, 0.2, 0.1, 5),
+    RectilinearPolygon(np.array([-0.2, 0.3, 0.2, 0.1, 0.05, -0.3]), 0.4),
     Polygon(ELL),
     RoundedPolygon(ELL, 0.02),
     LineArc(ELL, np.array([0, 0.3, 0, -0.4, 0.2, 0]), np.array([0, 1, 0, 1, 1, 0], dtype=bool)),
@@ -359,6 +361,10 @@ def wall_text(**fields: object) -> str:
             "vertices: found a list of 2, expected at least 3",
         ),
         ({"kind": "polygon", "vertices": [[0, 0], [1]]}, r"expected a list of points \[x, y\]"),
+        (
+            {"kind": "rectilinear polygon", "offsets": [-1, 1, 1, 0.5, 0], "angle": 0},
+            "found 5 offsets, expected an even number",
+        ),
         ({"kind": "line-arc", "vertices": [[0, 0], [1, 0]], "bulges": [1]}, "2 vertices and 1 bulges"),
         (
             {"kind": "regular polygon", "centre": [0, 0], "radius": 1, "angle": 0, "sides": 2.5},

@@ -13,6 +13,7 @@ from sketchloft.outline.divided_circle import DividedCircle
 from sketchloft.outline.fitted_loop import fitted_loop
 from sketchloft.outline.outline import Outline
 from sketchloft.outline.placed_polygons import Rectangle, RoundedRectangle
+from sketchloft.outline.rectilinear import RectilinearPolygon
 from sketchloft.stack import Run, Stack, Wall
 from sketchloft.stack_volume import stack_volume
 from sketchloft.wall.filleted import Filleted
@@ -32,6 +33,7 @@ def prism(outline: Outline, twist: float = 0.0) -> Swept:
 
 SQUARE = Rectangle(ORIGIN, 6.0, 6.0, 0.3)
 ROUNDED = RoundedRectangle(ORIGIN, 6.0, 4.0, 0.2, 0.9)
+STAIRS = RectilinearPolygon(np.array([-3.0, 4.0, 3.0, 2.0, 1.5, 0.0, 0.0, -2.0, -1.5, -4.0]), 0.3)
 WALLS: dict[str, tuple[Wall, float]] = {
     "square to round": (Ruled(SQUARE, DividedCircle(ORIGIN, 2.6, 0.3 + np.pi / 4, 0.0), 0.0, 6.0), 6.0),
     "round to square": (Ruled(DividedCircle(ORIGIN, 2.0, 0.3 + np.pi / 4, 0.0), SQUARE, 0.0, 6.0), 6.0),
@@ -43,6 +45,7 @@ WALLS: dict[str, tuple[Wall, float]] = {
     "one face rounded": (Filleted(Rectangle(ORIGIN, 6.0, 4.0, 0.2), 0.9, "top", 0.0, 5.0), 5.0),
     "four waves": (prism(fitted_loop((3 + 0.7 * np.cos(4 * ANGLES))[:, None] * AROUND, 24)), 3.0),
     "five waves": (prism(fitted_loop((3 + 0.8 * np.cos(5 * ANGLES))[:, None] * AROUND, 30)), 4.0),
+    "stairs": (prism(STAIRS), 4.0),
     "twisted": (prism(Rectangle(ORIGIN, 6.0, 3.5, 0.2), 0.08), 5.0),
 }
 KINDS = {
@@ -53,6 +56,7 @@ KINDS = {
     "one face rounded": "filleted prism",
     "four waves": "spline",
     "five waves": "spline",
+    "stairs": "rectilinear polygon",
 }
 
 

@@ -43,6 +43,8 @@ LEGEND = """\
 #     regular polygon    centre, radius to the corners, angle of the first corner, sides
 #     star               centre, radius to the tips, inner_radius to the corners between them, angle of the
 #                        first tip, tips
+#     rectilinear polygon  angle of the first edge, offsets of all from the origin, counter-clockwise: of the
+#                        first, third, ... across that direction, of the others along it
 #     polygon            vertices, counter-clockwise
 #     rounded polygon    vertices, corner_radius
 #     line-arc           vertices, bulges: tan(sweep / 4) of the arc after each vertex, 0 for a line

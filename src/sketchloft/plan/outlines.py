@@ -7,6 +7,7 @@ from sketchloft.outline.circle import Circle
 from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.placed_polygons import Rectangle, RegularPolygon, RoundedRectangle
 from sketchloft.outline.polygons import LineArc, Polygon
+from sketchloft.outline.rectilinear import RectilinearPolygon
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import spline_loop
 from sketchloft.outline.star import Star
@@ -36,6 +37,12 @@ def _line_arc(vertices: Floats, bulges: Floats) -> LineArc:
     return LineArc(vertices, bulges, bulges != 0)
 
 
+def _rectilinear(offsets: Floats, angle: float) -> RectilinearPolygon:
+    if len(offsets) % 2:
+        raise ValueError(f"found {len(offsets)} offsets, expected an even number, as edges turn by a quarter")
+    return RectilinearPolygon(offsets, angle)
+
+
 OUTLINES: dict[str, Form] = {
     "circle": form(Circle, CENTRE, RADIUS),
     "ellipse": form(
@@ -58,6 +65,7 @@ OUTLINES: dict[str, Form] = {
         ANGLE,
         Number("tips", "tips", "count", fitted="no", least=3),
     ),
+    "rectilinear polygon": form(_rectilinear, Number("offsets", "offsets", shape=(None,), least=4), ANGLE),
     "polygon": form(Polygon, VERTICES),
     "rounded polygon": form(RoundedPolygon, VERTICES, CORNER_RADIUS),
     "line-arc": form(

@@ -13,6 +13,7 @@ from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.outline import Outline
 from sketchloft.outline.placed_polygons import Rectangle, RegularPolygon, RoundedRectangle
 from sketchloft.outline.polygons import LineArc, Polygon
+from sketchloft.outline.rectilinear import RectilinearPolygon
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.star import Star
 from sketchloft.stack import Wall
@@ -156,6 +157,8 @@ def _free_outline(outline: Outline, size: float) -> tuple[Dimension, ...]:
     match outline:
         case RoundedPolygon(vertices, radius):
             found = [_count("corners", len(vertices)), Dimension("fillets", size * radius)]
+        case RectilinearPolygon(offsets, _):
+            found = [_count("right corners", len(offsets))]
         case Polygon(vertices):
             found = [_count("corners", len(vertices))]
         case LineArc(vertices, _, curved):

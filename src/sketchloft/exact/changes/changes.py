@@ -17,6 +17,8 @@ from sketchloft.exact.model.joins import end_pole, natural_joins, sole_profile
 from sketchloft.exact.model.surgery import with_run, with_runs, with_split, with_wall, without_run
 from sketchloft.exact.section.rarity import rarity
 from sketchloft.intervals import cheapest_chain
+from sketchloft.outline.polygons import Polygon
+from sketchloft.outline.rectilinear import RectilinearPolygon
 from sketchloft.stack import Run, Wall, section_boundary
 from sketchloft.wall.profile import Profile, SplineProfile
 from sketchloft.wall.revolved import Revolved, radius_at, sizes
@@ -135,9 +137,9 @@ def swaps(model: ExactModel) -> Iterator[Change]:
         for i, wall in enumerate(run.walls):
             for other in walls_like(wall, low, high):
                 nested = _extends(wall, other)
-                free = _is_free(wall)
+                free = _is_free(wall) or _bends(wall, other)
                 changed = with_wall(model, j, i, other)
-                handicap = -FREE_GAIN if free else max(_rarity(other) - _rarity(wall), 0.0)
+                handicap = -FREE_GAIN if _is_free(wall) else max(_rarity(other) - _rarity(wall), 0.0)
                 yield Change(changed, range(j, j + 1), handicap, nested, free)
 
 
@@ -167,6 +169,13 @@ def _rarity(wall: Wall) -> float:
 
 def _is_free(wall: Wall) -> bool:
     return isinstance(wall, Revolved) and isinstance(wall.profile, SplineProfile)
+
+
+def _bends(wall: Wall, other: Wall) -> bool:
+    """Whether the other has corners of any angle where the wall's are right: its noise must tell."""
+    if not isinstance(wall, Swept) or not isinstance(other, Swept):
+        return False
+    return isinstance(wall.outline, RectilinearPolygon) and isinstance(other.outline, Polygon)
 
 
 def _extends(wall: Wall, other: Wall) -> bool:

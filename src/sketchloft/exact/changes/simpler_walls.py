@@ -15,6 +15,7 @@ from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.outline import Outline
 from sketchloft.outline.placed_polygons import Rectangle, RegularPolygon, RoundedRectangle
 from sketchloft.outline.polygons import LineArc, Polygon, corner_areas
+from sketchloft.outline.rectilinear import RectilinearPolygon, rectilinear_of, with_a_step_less
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import SplineLoop
 from sketchloft.outline.star import Star, star_of
@@ -120,20 +121,33 @@ def _outlines_like(outline: Outline) -> Iterator[Outline]:
         yield RoundedRectangle(outline.centre, *sides, outline.angle, ROUNDED * min(sides))
     if isinstance(outline, RoundedPolygon):
         yield Polygon(outline.vertices)
+    if isinstance(outline, RectilinearPolygon):
+        fewer = with_a_step_less(outline)
+        yield from () if fewer is None else (fewer,)
+        yield Polygon(outline.chain()[0])
     yield from _with_simpler_corners(outline)
     if not isinstance(outline, (Rectangle, Circle, Star)):
-        vertices = outline.vertices if isinstance(outline, (Polygon, RoundedPolygon)) else None
-        polygon = None if vertices is None else Polygon(vertices)
+        polygon = _corners_of(outline)
         for other in polygons(ring, polygon, float(np.sqrt(outline.area)) * 0.05):
             if type(other) is not type(outline):
                 yield other
 
 
+def _corners_of(outline: Outline) -> Polygon | None:
+    """The polygon of an outline's corners; None where it has none of its own."""
+    match outline:
+        case Polygon(vertices) | RoundedPolygon(vertices):
+            return Polygon(vertices)
+        case RectilinearPolygon():
+            return Polygon(outline.chain()[0])
+    return None
+
+
 def _with_simpler_corners(outline: Outline) -> Iterator[Outline]:
     if isinstance(outline, Polygon) and len(outline.vertices) > 3:
-        star = star_of(outline.vertices)
-        if star is not None:
-            yield star
+        for regular in (star_of(outline.vertices), rectilinear_of(outline.vertices)):
+            if regular is not None:
+                yield regular
         for k in _flattest(outline.vertices):
             yield Polygon(np.delete(outline.vertices, k, axis=0))
         for corner in _without_chamfers(outline.vertices):

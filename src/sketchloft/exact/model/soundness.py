@@ -12,6 +12,7 @@ from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.joins import poles
 from sketchloft.outline.chain_outline import ChainOutline
 from sketchloft.outline.polygons import LineArc, Polygon, has_slit
+from sketchloft.outline.rectilinear import RectilinearPolygon
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import SplineLoop
 from sketchloft.stack import Run, Wall, section_boundary
@@ -24,7 +25,7 @@ from sketchloft.wall.swept import Swept
 
 __all__ = ["covers", "detached", "slits", "sound"]
 
-MAY_CROSS = (Polygon, LineArc, RoundedPolygon, SplineLoop)
+MAY_CROSS = (Polygon, LineArc, RectilinearPolygon, RoundedPolygon, SplineLoop)
 """Outlines that may cross themselves."""
 FARTHEST = 1e4
 """Parameters are below this, as the cloud is about 1 across."""

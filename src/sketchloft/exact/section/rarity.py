@@ -7,6 +7,7 @@ from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.outline import Arc, Outline
 from sketchloft.outline.placed_polygons import Rectangle, RoundedRectangle
 from sketchloft.outline.polygons import LineArc, Polygon, odd_corners
+from sketchloft.outline.rectilinear import RectilinearPolygon
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import SplineLoop
 from sketchloft.outline.star import Star
@@ -16,8 +17,9 @@ __all__ = ["COMMON", "LAST", "may_be_free", "rarity"]
 COMMON = (Circle, Ellipse, Rectangle)
 """Outlines that there is no simpler one for."""
 RARE = 6.0
-"""Log odds against other outlines of up to six edges, and against a rectangle with one radius and a star, of
-which there are more to be taken for one by chance; one more for each further line, two for each arc."""
+"""Log odds against other outlines of up to six edges, and against a rectangle with one radius, a star and one
+of right corners, of which there are more to be taken for one by chance; one more for each further line, two
+for each arc."""
 ODD = 3.0
 """Log odds against each end of an arc at an odd angle."""
 LAST = 12.0
@@ -30,7 +32,7 @@ def rarity(outline: Outline) -> float:
     """Log odds against an outline before the points are seen."""
     if isinstance(outline, SplineLoop):
         return LAST
-    if isinstance(outline, (RoundedRectangle, Star)):
+    if isinstance(outline, (RectilinearPolygon, RoundedRectangle, Star)):
         return RARE
     edges = sum(2.0 if isinstance(edge, Arc) else 1.0 for edge in outline.edges())
     if isinstance(outline, LineArc):

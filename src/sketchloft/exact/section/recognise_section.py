@@ -26,6 +26,7 @@ from sketchloft.outline.candidates import (
 from sketchloft.outline.fitted_loop import fitted_loop
 from sketchloft.outline.outline import Outline
 from sketchloft.outline.polygons import Polygon, corner_areas
+from sketchloft.outline.rectilinear import rectilinear_of, with_a_step_less
 from sketchloft.outline.spline_loop import SplineLoop
 from sketchloft.outline.star import star_in
 from sketchloft.ring import ring_length
@@ -147,6 +148,21 @@ def _attempt_corners(
         if simpler < value:
             break
         value, outline = tried[-1]
+    _attempt_right_corners(attempt, tried)
+
+
+def _attempt_right_corners(attempt: Callable[[Outline], float], tried: list[tuple[float, Outline]]) -> None:
+    """Try what the polygons are with right corners, the best of as many corners, and with fewer steps."""
+    seen: set[int] = set()
+    for _, polygon in sorted(tried, key=lambda found: -found[0]):
+        outline = rectilinear_of(polygon.vertices) if isinstance(polygon, Polygon) else None
+        value = -np.inf
+        while outline is not None and len(outline.offsets) not in seen:
+            seen.add(len(outline.offsets))
+            simpler = attempt(outline)
+            if simpler < value:
+                break
+            value, outline = simpler, with_a_step_less(outline)
 
 
 def _attempt_splines(

@@ -24,6 +24,7 @@ from sketchloft.outline.divided_circle import DividedCircle
 from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.placed_polygons import Rectangle
 from sketchloft.outline.polygons import Polygon
+from sketchloft.outline.rectilinear import rectilinear_of
 from sketchloft.outline.star import Star
 from sketchloft.robust_size import middle_and_size
 from sketchloft.sample import GOALS, FillParams, sample_goal
@@ -202,6 +203,21 @@ def test_a_star_has_two_radii() -> None:
     assert isinstance(found, Swept)
     assert isinstance(found.outline, Star)
     assert (found.outline.radius, found.outline.inner_radius) == pytest.approx((0.4, 0.18), abs=0.006)
+
+
+@pytest.mark.parametrize(("lean", "kind"), [(0.0, "rectilinear polygon"), (0.07, "polygon")])
+def test_corners_are_right_ones_only_where_they_are(lean: float, kind: str) -> None:
+    ell = np.array([[0, 0], [0.6, 0], [0.6, 0.2], [0.2, 0.2], [0.2, 0.6], [0, 0.6]]) - 0.25
+    true = Polygon(ell + lean * np.column_stack([ell[:, 1], np.zeros(6)]))
+    right = rectilinear_of(true.vertices)
+    assert right is not None
+    points = drawn(stack_of([-0.15, 0.15], Swept(true, 0.0, AXIS, AXIS)))
+    for start in (true, right):
+        found = improved(points, model_at(stack_of([-0.15, 0.15], Swept(start, 0.0, AXIS, AXIS))), 1.0)
+        wall = found.stack.runs[0].walls[0]
+        assert wall.kind == kind
+        assert isinstance(wall, Swept)
+        assert np.abs(true.foot(wall.outline.boundary(60).points).distance).max() < 0.004
 
 
 @pytest.mark.parametrize("seed", range(3))

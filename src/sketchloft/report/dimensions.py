@@ -149,6 +149,9 @@ def _cornered(outline: Outline, size: float, turned: float) -> tuple[Dimension, 
         case Star(_, radius, inner, angle, tips):
             radii = (Dimension("radius to the tips", size * radius), Dimension("between", size * inner))
             return (_count("tips", tips), *radii, _turn(angle + turned, 2 * np.pi / tips))
+        case RectilinearPolygon(offsets, angle):
+            area = Dimension("area", size**2 * outline.area, "area")
+            return (_count("right corners", len(offsets)), area, _turn(angle + turned, np.pi / 2))
     return _free_outline(outline, size)
 
 
@@ -157,8 +160,6 @@ def _free_outline(outline: Outline, size: float) -> tuple[Dimension, ...]:
     match outline:
         case RoundedPolygon(vertices, radius):
             found = [_count("corners", len(vertices)), Dimension("fillets", size * radius)]
-        case RectilinearPolygon(offsets, _):
-            found = [_count("right corners", len(offsets))]
         case Polygon(vertices):
             found = [_count("corners", len(vertices))]
         case LineArc(vertices, _, curved):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -13,22 +12,23 @@ from sketchloft.exact.fit.climb import climb, fit_density
 from sketchloft.exact.fit.schwarz import evidence
 from sketchloft.exact.model.density import Density
 from sketchloft.exact.model.exact_model import ExactModel, model_of
-from sketchloft.exact.section.rarity import may_be_free, rarity
+from sketchloft.exact.section.further_outlines import (
+    STIFF,
+    Tried,
+    attempt_corners,
+    attempt_splines,
+    likeliest,
+    nearly_free,
+)
+from sketchloft.exact.section.rarity import rarity
 from sketchloft.exact.section.section_contours import contours
 from sketchloft.outline.candidates import (
-    chains,
     circle_of,
     ellipse_of,
-    polygons,
     rectangle_of,
     spline_of,
 )
-from sketchloft.outline.fitted_loop import fitted_loop
 from sketchloft.outline.outline import Outline
-from sketchloft.outline.polygons import Polygon, corner_areas
-from sketchloft.outline.rectilinear import rectilinear_of, with_a_step_less
-from sketchloft.outline.spline_loop import SplineLoop
-from sketchloft.outline.star import star_in
 from sketchloft.ring import ring_length
 from sketchloft.shapes.spline import resampled
 from sketchloft.stack import Run, Stack
@@ -49,11 +49,6 @@ evidence, is given up."""
 ENOUGH = 0.05
 """Evidence that a step gains for there to be another."""
 LATTICE = 40
-POLES = (8, 12, 16, 20)
-AROUND = 160
-"""Points on a spline that one of more poles is drawn through."""
-NEARLY = 25.0
-"""Evidence by which a spline of few poles, or many edges, may be behind and yet one of more be the best."""
 WAVES = np.arange(2, 13)
 EVEN = 4.0
 """Power of a wave around a circle that chance exceeds once in exp(4) times."""
@@ -98,7 +93,7 @@ def _best(points: Floats, ring: Floats, blur: float, together: float, *, hole: b
     near, core, area = _beside(points, ring, BESIDE * blur, hole=hole)
     every = len(near) // MOST_POINTS + 1
     near, together = near[::every], thinned(together, every)
-    tried: list[tuple[float, Outline]] = []
+    tried: Tried = []
     seen = [-np.inf]
     hopeless = max(HOPELESS[0] / together, HOPELESS[1])
 
@@ -116,73 +111,18 @@ def _best(points: Floats, ring: Floats, blur: float, together: float, *, hole: b
             tried.append((value, wall.outline))
         return value
 
-    free = attempt(spline_of(ring, POLES[0]))
+    free = attempt(spline_of(ring, STIFF))
     circle = attempt(circle_of(ring))
     ellipse = attempt(ellipse_of(ring))
     if circle > max(free, ellipse) and together == 1 and _even(near, tried[1][1], blur):
         return tried[1][1]
     if rough:
         attempt(rectangle_of(ring))
-        return _likeliest(tried)
-    _attempt_corners(attempt, tried, ring, blur)
-    if _may_be_free(tried):
-        _attempt_splines(attempt, tried, ring)
-    return _likeliest(tried)
-
-
-def _attempt_corners(
-    attempt: Callable[[Outline], float], tried: list[tuple[float, Outline]], ring: Floats, blur: float
-) -> None:
-    """Try outlines with corners, and the best polygon with fewer and fewer of them."""
-    cut = chains(ring, blur)
-    polygon = next((outline for outline in cut if isinstance(outline, Polygon)), None)
-    for outline in (*cut, *polygons(ring, polygon, blur)):
-        attempt(outline)
-    star = star_in(ring)
-    if star is not None:
-        attempt(star)
-    plain = [found for found in tried if isinstance(found[1], Polygon)]
-    value, outline = max(plain or tried, key=lambda found: found[0])
-    while isinstance(outline, Polygon) and len(outline.vertices) > 3:
-        simpler = attempt(_simpler(outline))
-        if simpler < value:
-            break
-        value, outline = tried[-1]
-    _attempt_right_corners(attempt, tried)
-
-
-def _attempt_right_corners(attempt: Callable[[Outline], float], tried: list[tuple[float, Outline]]) -> None:
-    """Try what the polygons are with right corners, the best of as many corners, and with fewer steps."""
-    seen: set[int] = set()
-    for _, polygon in sorted(tried, key=lambda found: -found[0]):
-        outline = rectilinear_of(polygon.vertices) if isinstance(polygon, Polygon) else None
-        value = -np.inf
-        while outline is not None and len(outline.offsets) not in seen:
-            seen.add(len(outline.offsets))
-            simpler = attempt(outline)
-            if simpler < value:
-                break
-            value, outline = simpler, with_a_step_less(outline)
-
-
-def _attempt_splines(
-    attempt: Callable[[Outline], float], tried: list[tuple[float, Outline]], ring: Floats
-) -> None:
-    """Try splines of more poles; where one crosses itself in bays of the contour, from the best so far."""
-    for poles in POLES[1:]:
-        if not np.isfinite(attempt(spline_of(ring, poles))):
-            splines = [found for found in tried if isinstance(found[1], SplineLoop)]
-            attempt(fitted_loop(_likeliest(splines).boundary(AROUND).points, poles))
-
-
-def _may_be_free(tried: list[tuple[float, Outline]]) -> bool:
-    """Whether an outline that is a free curve, or may stand for one, is nearly the best."""
-    best = max(value for value, _ in tried)
-    return any(may_be_free(outline) and value > best - NEARLY for value, outline in tried)
-
-
-def _likeliest(tried: list[tuple[float, Outline]]) -> Outline:
-    return max(tried, key=lambda found: found[0])[1]
+        return likeliest(tried)
+    attempt_corners(attempt, tried, ring, blur)
+    if nearly_free(tried):
+        attempt_splines(attempt, tried, ring)
+    return likeliest(tried)
 
 
 def _holds(outline: Outline, places: Floats, *, hole: bool) -> bool:
@@ -204,12 +144,6 @@ def _even(near: Floats, outline: Outline, blur: float) -> bool:
     angles = np.arctan2(arms[:, 1], arms[:, 0])
     powers = np.abs(np.exp(1j * WAVES[:, None] * angles).sum(axis=1)) ** 2 / max(len(angles), 1)
     return bool((powers < EVEN).all())
-
-
-def _simpler(polygon: Polygon) -> Polygon:
-    """Drop the corner whose triangle with its neighbours is smallest."""
-    smallest = int(np.argmin(corner_areas(polygon.vertices)))
-    return Polygon(np.delete(polygon.vertices, smallest, axis=0))
 
 
 def _beside(points: Floats, ring: Floats, width: float, *, hole: bool) -> tuple[Floats, Floats, float]:

@@ -1,0 +1,90 @@
+"""Further outlines: those of corners and free curves that a contour could be."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from sketchloft.cloud import Floats
+from sketchloft.exact.section.rarity import may_be_free
+from sketchloft.outline.candidates import chains, polygons, spline_of
+from sketchloft.outline.fitted_loop import fitted_loop
+from sketchloft.outline.outline import Outline
+from sketchloft.outline.polygons import Polygon, corner_areas
+from sketchloft.outline.rectilinear import rectilinear_of, with_a_step_less
+from sketchloft.outline.spline_loop import SplineLoop
+from sketchloft.outline.star import star_in
+
+__all__ = ["STIFF", "Attempt", "Tried", "attempt_corners", "attempt_splines", "likeliest", "nearly_free"]
+
+STIFF = 8
+"""Poles of the first spline."""
+POLES = (12, 16, 20)
+AROUND = 160
+"""Points on a spline that one of more poles is drawn through."""
+NEARLY = 25.0
+"""Evidence by which a spline of few poles, or many edges, may be behind and yet one of more be the best."""
+
+Attempt = Callable[[Outline], float]
+"""Fits an outline, notes it, and says how likely it is."""
+Tried = list[tuple[float, Outline]]
+"""Evidence of outlines, and the outlines as fitted."""
+
+
+def attempt_corners(attempt: Attempt, tried: Tried, ring: Floats, blur: float) -> None:
+    """Try outlines with corners, and the best polygon with fewer and fewer of them."""
+    cut = chains(ring, blur)
+    polygon = next((outline for outline in cut if isinstance(outline, Polygon)), None)
+    for outline in (*cut, *polygons(ring, polygon, blur)):
+        attempt(outline)
+    star = star_in(ring)
+    if star is not None:
+        attempt(star)
+    plain = [found for found in tried if isinstance(found[1], Polygon)]
+    value, outline = max(plain or tried, key=lambda found: found[0])
+    while isinstance(outline, Polygon) and len(outline.vertices) > 3:
+        simpler = attempt(_simpler(outline))
+        if simpler < value:
+            break
+        value, outline = tried[-1]
+    _attempt_right_corners(attempt, tried)
+
+
+def _attempt_right_corners(attempt: Attempt, tried: Tried) -> None:
+    """Try what the polygons are with right corners, the best of as many corners, and with fewer steps."""
+    seen: set[int] = set()
+    for _, polygon in sorted(tried, key=lambda found: -found[0]):
+        outline = rectilinear_of(polygon.vertices) if isinstance(polygon, Polygon) else None
+        value = -np.inf
+        while outline is not None and len(outline.offsets) not in seen:
+            seen.add(len(outline.offsets))
+            simpler = attempt(outline)
+            if simpler < value:
+                break
+            value, outline = simpler, with_a_step_less(outline)
+
+
+def attempt_splines(attempt: Attempt, tried: Tried, ring: Floats) -> None:
+    """Try splines of more poles; where one crosses itself in bays of the contour, from the best so far."""
+    for poles in POLES:
+        if not np.isfinite(attempt(spline_of(ring, poles))):
+            splines = [found for found in tried if isinstance(found[1], SplineLoop)]
+            attempt(fitted_loop(likeliest(splines).boundary(AROUND).points, poles))
+
+
+def nearly_free(tried: Tried) -> bool:
+    """Whether an outline that is a free curve, or may stand for one, is nearly the best."""
+    best = max(value for value, _ in tried)
+    return any(may_be_free(outline) and value > best - NEARLY for value, outline in tried)
+
+
+def likeliest(tried: Tried) -> Outline:
+    """Give the outline of most evidence."""
+    return max(tried, key=lambda found: found[0])[1]
+
+
+def _simpler(polygon: Polygon) -> Polygon:
+    """Drop the corner whose triangle with its neighbours is smallest."""
+    smallest = int(np.argmin(corner_areas(polygon.vertices)))
+    return Polygon(np.delete(polygon.vertices, smallest, axis=0))

@@ -12,7 +12,7 @@ from sketchloft.outline.chain import chords
 from sketchloft.outline.chain_outline import ChainOutline
 from sketchloft.outline.placed_polygons import moves_of, placed
 
-__all__ = ["FEWEST", "RectilinearPolygon", "rectilinear_of", "with_a_step_less"]
+__all__ = ["RectilinearPolygon", "rectilinear_of", "with_a_step_less"]
 
 FEWEST = 6
 """Corners of one that is not a rectangle."""

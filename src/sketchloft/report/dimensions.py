@@ -150,8 +150,8 @@ def _cornered(outline: Outline, size: float, turned: float) -> tuple[Dimension, 
             radii = (Dimension("radius to the tips", size * radius), Dimension("between", size * inner))
             return (_count("tips", tips), *radii, _turn(angle + turned, 2 * np.pi / tips))
         case RectilinearPolygon(offsets, angle):
-            area = Dimension("area", size**2 * outline.area, "area")
-            return (_count("right corners", len(offsets)), area, _turn(angle + turned, np.pi / 2))
+            right = _count("right corners", len(offsets))
+            return (right, _area(outline, size), _turn(angle + turned, np.pi / 2))
     return _free_outline(outline, size)
 
 
@@ -167,7 +167,11 @@ def _free_outline(outline: Outline, size: float) -> tuple[Dimension, ...]:
             found = [_count("lines", len(vertices) - arcs), _count("arcs", arcs)]
         case _:
             found = [_count("poles", len(outline.vector))]
-    return (*found, Dimension("area", size**2 * outline.area, "area"))
+    return (*found, _area(outline, size))
+
+
+def _area(outline: Outline, size: float) -> Dimension:
+    return Dimension("area", size**2 * outline.area, "area")
 
 
 def _turn(angle: float, period: float) -> Dimension:

@@ -119,15 +119,11 @@ def _outlines_like(outline: Outline) -> Iterator[Outline]:
     if isinstance(outline, Rectangle):
         sides = (outline.width, outline.height)
         yield RoundedRectangle(outline.centre, *sides, outline.angle, ROUNDED * min(sides))
-    if isinstance(outline, RoundedPolygon):
-        yield Polygon(outline.vertices)
-    if isinstance(outline, RectilinearPolygon):
-        fewer = with_a_step_less(outline)
-        yield from () if fewer is None else (fewer,)
-        yield Polygon(outline.chain()[0])
     yield from _with_simpler_corners(outline)
+    polygon = _corners_of(outline)
+    if polygon is not None and not isinstance(outline, Polygon):
+        yield polygon
     if not isinstance(outline, (Rectangle, Circle, Star)):
-        polygon = _corners_of(outline)
         for other in polygons(ring, polygon, float(np.sqrt(outline.area)) * 0.05):
             if type(other) is not type(outline):
                 yield other
@@ -143,11 +139,19 @@ def _corners_of(outline: Outline) -> Polygon | None:
     return None
 
 
+def _of_fewer_numbers(outline: Outline) -> Iterator[Outline]:
+    """Outlines that a polygon could be, or one of right corners with a step less."""
+    found: list[Outline | None] = []
+    if isinstance(outline, Polygon):
+        found = [star_of(outline.vertices), rectilinear_of(outline.vertices)]
+    elif isinstance(outline, RectilinearPolygon):
+        found = [with_a_step_less(outline)]
+    yield from (other for other in found if other is not None)
+
+
 def _with_simpler_corners(outline: Outline) -> Iterator[Outline]:
+    yield from _of_fewer_numbers(outline)
     if isinstance(outline, Polygon) and len(outline.vertices) > 3:
-        for regular in (star_of(outline.vertices), rectilinear_of(outline.vertices)):
-            if regular is not None:
-                yield regular
         for k in _flattest(outline.vertices):
             yield Polygon(np.delete(outline.vertices, k, axis=0))
         for corner in _without_chamfers(outline.vertices):

@@ -64,8 +64,8 @@ class Change:
     nested : bool
         Whether the model before it is a special case of it, which it starts from.
     free : bool
-        Whether it puts a free wall in, takes one out or starts from a section found anew, so that its walls
-        have far to go and `tried_free` judges it.
+        Whether it puts a free wall in, takes one out, lets go of right corners or starts from a section found
+        anew, so that its walls have far to go, or its noise must tell, and `tried_free` judges it.
     """
 
     model: ExactModel

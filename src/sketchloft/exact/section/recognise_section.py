@@ -22,12 +22,7 @@ from sketchloft.exact.section.further_outlines import (
 )
 from sketchloft.exact.section.rarity import rarity
 from sketchloft.exact.section.section_contours import contours
-from sketchloft.outline.candidates import (
-    circle_of,
-    ellipse_of,
-    rectangle_of,
-    spline_of,
-)
+from sketchloft.outline.candidates import circle_of, ellipse_of, rectangle_of, spline_of
 from sketchloft.outline.outline import Outline
 from sketchloft.ring import ring_length
 from sketchloft.shapes.spline import resampled

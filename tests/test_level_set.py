@@ -64,6 +64,14 @@ def test_the_grid_reaches_around_tips(n: int) -> None:
         assert ring_area(outer[0]) == pytest.approx(2, rel=0.03)
 
 
+def test_a_section_of_a_few_strokes_has_an_outline() -> None:
+    """However few its points are, the largest piece is no speck beside a larger one."""
+    points = np.random.default_rng(2).uniform(-1, 1, (170, 2)) * [1, 0.75]
+    outer, holes, _ = contours(points, 10.8)
+    assert (len(outer), len(holes)) == (1, 0)
+    assert ring_area(outer[0]) == pytest.approx(3, rel=0.25)
+
+
 def test_where_points_lie_six_times_denser_the_wall_is_no_further_out() -> None:
     points = ball(100_000)
     shares = (3.5 + 2.5 * points[:, 2]) / 6

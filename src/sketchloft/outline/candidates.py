@@ -16,7 +16,7 @@ from sketchloft.outline.spline_loop import SplineLoop, spline_loop
 from sketchloft.ring import ring_area, ring_centre
 from sketchloft.shapes.spline import fit_spline, resampled
 
-__all__ = ["chains", "circle_of", "ellipse_of", "polygons", "rectangle_of", "spline_of"]
+__all__ = ["chains", "circle_of", "ellipse_of", "polygons", "rectangle_like", "rectangle_of", "spline_of"]
 
 CONTOUR_NOISE = 0.3
 """Standard deviation of the half-density contour in blurs of the density."""
@@ -56,6 +56,12 @@ def rectangle_of(ring: Floats) -> Rectangle:
     centre = np.array([c * middle[0] - s * middle[1], s * middle[0] + c * middle[1]])
     width, height = (high - low)[:, best].tolist()
     return Rectangle(centre, width, height, float(angles[best]))
+
+
+def rectangle_like(ellipse: Ellipse) -> Rectangle:
+    """Rectangle of the same second moments, but for its area."""
+    width, height = np.sqrt(3) * ellipse.major, np.sqrt(3) * ellipse.minor
+    return Rectangle(ellipse.centre, float(width), float(height), ellipse.angle)
 
 
 def spline_of(ring: Floats, poles: int) -> SplineLoop:

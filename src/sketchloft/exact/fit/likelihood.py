@@ -16,7 +16,7 @@ from sketchloft.exact.fit.expected import expected_points, expected_slope, wall_
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.soundness import sound
 
-__all__ = ["Evaluation", "beside_walls", "evaluate", "share_of", "value_of"]
+__all__ = ["Evaluation", "beside_walls", "evaluate", "losses", "share_of", "value_of"]
 
 REACH = 5.0
 """Noise deviations beyond which a wall is taken to be a sharp step."""
@@ -92,6 +92,12 @@ def share_of(points: Floats, model: ExactModel, *, caps: bool = True) -> Floats:
     """(n,) probability of each point to be none of the strays."""
     inside = model.density.at(points) * _share_inside(points, model, model.sigma, caps=caps)
     return inside / (inside + model.stray)
+
+
+def losses(points: Floats, model: ExactModel) -> Floats:
+    """(n,) what points (n, 3) cost in log likelihood beside ones that are deep inside."""
+    inside = _share_inside(points, model, model.sigma)
+    return -np.log(inside + model.stray / model.density.at(points))
 
 
 def _rising(points: Floats) -> Ints:

@@ -23,7 +23,7 @@ __all__ = ["coaxial"]
 
 BESIDE = 12.0
 """Noise deviations from the walls within which points decide."""
-STEEPEST = 0.2
+STEEPEST = 0.5
 """Largest slope of the line through the centres that is taken for a common axis seen askew."""
 
 
@@ -51,11 +51,11 @@ def coaxial(
     if len(places) < 2:
         return still
     turn = _through_centres(model, places) if tilt else np.eye(3)
-    turned = points @ turn
+    turned, straight = points @ turn, _with_spheres_turned(model, turn)
     pairs = [((*places[0], k), (*place, k)) for place in places[1:] for k in (0, 1)] + _tangents(model)
-    near = turned[beside_walls(turned, model, BESIDE * model.sigma)]
+    near = turned[beside_walls(turned, straight, BESIDE * model.sigma)]
     rings = _rings(model)
-    start = natural_joins(tied(model, pairs + rings)) if rings else tied(model, pairs)
+    start = natural_joins(tied(straight, pairs + rings)) if rings else tied(straight, pairs)
     change, _, rotation = climb(near, start, 12, tilt=tilt)
     change = natural_joins(change)
     turned, count = turned @ rotation, len(points)
@@ -71,6 +71,21 @@ def _as_cylinders(model: ExactModel) -> ExactModel:
 
 def _as_cylinder(wall: Wall) -> Wall:
     return as_revolved(wall) if isinstance(wall, Swept) and not wall.free else wall
+
+
+def _with_spheres_turned(model: ExactModel, turn: Floats) -> ExactModel:
+    """The model with the centres of spheres where they are after a turn of the points."""
+    runs = tuple(
+        Run(tuple(_sphere_turned(wall, turn) for wall in run.walls), run.holes) for run in model.stack.runs
+    )
+    return replace(model, stack=Stack(model.stack.breaks, runs))
+
+
+def _sphere_turned(wall: Wall, turn: Floats) -> Wall:
+    if not isinstance(wall, Revolved) or wall.kind != "sphere" or not isinstance(wall.profile, ArcProfile):
+        return wall
+    x, y, height = (np.array([*wall.centre, wall.profile.height]) @ turn).tolist()
+    return Revolved(np.array([x, y]), replace(wall.profile, height=height))
 
 
 def _tangents(model: ExactModel) -> list[tuple[tuple[int, int, int], tuple[int, int, int]]]:

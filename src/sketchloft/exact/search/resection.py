@@ -50,10 +50,13 @@ def resectioned(
 
 
 def _moved(model: ExactModel, j: int, cuts: Floats, upright: float) -> bool:
-    """Whether a break of a run, or its walls with the direction, are elsewhere than they were."""
+    """Whether a break of a run, or its walls with the direction, are elsewhere than they were, or it grew."""
     low, high = model.stack.breaks[[j, j + 1]].tolist()
+    near = MOVED * model.sigma
+    if ((cuts > low + near) & (cuts < high - near)).any():
+        return True
     leaning = (high - low) * float(np.sqrt(max(1 - upright**2, 0.0)))
-    return max(leaning, *(float(np.abs(cuts - z).min()) for z in (low, high))) >= MOVED * model.sigma
+    return max(leaning, *(float(np.abs(cuts - z).min()) for z in (low, high))) > near
 
 
 def _settled(points: Floats, model: ExactModel, j: int, together: float) -> bool:

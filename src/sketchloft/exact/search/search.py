@@ -22,6 +22,7 @@ from sketchloft.exact.model.soundness import sound
 from sketchloft.exact.search.coaxial import coaxial
 from sketchloft.exact.search.flush import flush
 from sketchloft.exact.search.resection import resectioned
+from sketchloft.exact.search.stray_strokes import stray_strokes
 from sketchloft.exact.search.upended import upended
 from sketchloft.exact.search.upright import upright
 from sketchloft.exact.start.start import BESIDE, Start
@@ -128,18 +129,25 @@ def _found(start: Start, *, tilt: bool, lofts: bool, progress: Callable[[str], N
     again = resectioned(sample @ turn, model, together, start.cuts, (start.settling @ turn)[2, 2])
     if again is not model:
         model = improved(sample @ turn, again, together, lofts=lofts)
+    strays = stray_strokes(sample @ turn, model, together)
+    points, model = start.points @ start.settling, strays.model
+    if not strays.kept.all():
+        points, sample = points[strays.among(points, sample)], sample[strays.kept]
+        model = improved(sample @ turn, model, together, lofts=lofts)
     model, _, rotation = coaxial(sample @ turn, model, together, tilt=tilt)
     turn = turn @ rotation
     progress("fit")
-    every = len(start.points) / len(sample)
+    every = len(start.points) / len(start.sample)
     model = thicker(model, every)
-    model, points, rotation = sharpened(start.points @ start.settling @ turn, model, tilt=tilt)
+    model, points, rotation = sharpened(points @ turn, model, tilt=tilt)
     turn = turn @ rotation
     model = merged(sample @ turn, thicker(model, 1 / every), together)
     model = thicker(model, every)
     model = thicker(without_gap(model, least_noise(model, len(points))), 1 / every)
     model = flush(sample @ turn, model, together)
-    value = worth(sample @ turn, model, together, len(sample))
+    value = worth(sample @ turn, model, together, len(start.sample)) + strays.worth
     blurred = replace(model, sigma=max(model.sigma, AT_LEAST))
     left = misfit(sample @ turn, blurred, range(len(model.stack.runs)), together)
-    return Found(start, thicker(model, every), points, start.settling @ turn, value, left)
+    model, turn, gone = thicker(model, every), start.settling @ turn, len(start.points) - len(points)
+    model = replace(model, stray=model.stray + gone / model.space)
+    return Found(start, model, start.points @ turn, turn, value, left)

@@ -8,7 +8,8 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.exact.section.rarity import may_be_free
-from sketchloft.outline.candidates import chains, polygons, spline_of
+from sketchloft.outline.candidates import chains, polygons, rectangle_like, spline_of
+from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.fitted_loop import fitted_loop
 from sketchloft.outline.outline import Outline
 from sketchloft.outline.polygons import Polygon, corner_areas
@@ -38,6 +39,10 @@ def attempt_corners(attempt: Attempt, tried: Tried, ring: Floats, blur: float) -
     polygon = next((outline for outline in cut if isinstance(outline, Polygon)), None)
     for outline in (*cut, *polygons(ring, polygon, blur)):
         attempt(outline)
+    for outline in [found for _, found in tried if isinstance(found, Ellipse)]:
+        attempt(
+            rectangle_like(outline)
+        )  # what the points say of its angle, where they are few, not the contour
     star = star_in(ring)
     if star is not None:
         attempt(star)

@@ -23,6 +23,8 @@ GAP = 25.0
 """Points that a hole lacks, and that a piece holds, at least: fewer come by chance."""
 PIECE = 0.03
 """Share of the section's area that a piece of it covers at least."""
+ONE = 1 - 1e-9
+"""The same where there are points for one piece only."""
 
 
 @dataclass(frozen=True)
@@ -126,13 +128,12 @@ def contours(points: Floats, together: float = 1.0) -> tuple[list[Floats], list[
     if not len(areas):
         return [], [], grid.blur
     outer_sign = np.sign(areas[np.argmax(np.abs(areas))])
-    largest = float(np.abs(areas).max())
-    least = largest * max(PIECE, GAP * together / len(points))
+    least = float(np.abs(areas).max()) * min(max(PIECE, GAP * together / len(points)), ONE)
     order = np.argsort(-np.abs(areas))
     outer, holes = [], []
     for i in order:
         ring = loops[i] if areas[i] > 0 else loops[i][::-1]
-        if np.sign(areas[i]) == outer_sign and abs(areas[i]) > least:
+        if np.sign(areas[i]) == outer_sign and abs(areas[i]) >= least:
             outer.append(ring)
         elif np.sign(areas[i]) != outer_sign and _missing(grid, ring, abs(float(areas[i]))) > GAP * together:
             holes.append(ring)

@@ -11,6 +11,7 @@ from sketchloft.direction import Axis
 from sketchloft.exact.start.direction import Candidate
 from sketchloft.exact.start.segments import SegmentsParams
 from sketchloft.exact.start.start import Start, directions, start_along
+from sketchloft.exact.start.through_sphere import through_sphere
 
 __all__ = ["started"]
 
@@ -69,6 +70,11 @@ def started(
     best = max(starts, key=_value)
     if best.settling[2, 2] < np.cos(TURNED) and not best.plain:
         starts.append(start_along(points, best.direction, best.candidates, params))
+        best = max(starts, key=_value)
+    balls = [through_sphere(start) for start in sorted(starts, key=_value, reverse=True) if candidates]
+    through = next((direction for direction in balls if direction is not None), None)
+    if through is not None and all(abs(float(through @ start.direction)) < SAME for start in starts):
+        starts.append(start_along(points, through, best.candidates, params))
         best = max(starts, key=_value)
     if blurred and not best.plain:
         starts.append(start_along(points, best.frame.axes[2], best.candidates, params, fine=True))

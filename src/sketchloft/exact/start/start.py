@@ -38,7 +38,7 @@ HOLLOW = 0.4
 """Share of a closed region that is empty inside from which on it is a skin."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Start:
     """What the search starts from.
 

@@ -1,0 +1,144 @@
+"""Stray strokes: rows of points beside the walls that are likelier an accident than part of the thing."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sketchloft.cloud import Floats, Ints
+from sketchloft.exact.changes.trial import worth
+from sketchloft.exact.fit.climb import climb, fit_density
+from sketchloft.exact.fit.likelihood import beside_walls, losses
+from sketchloft.exact.model.exact_model import ExactModel
+from sketchloft.exact.model.soundness import sound
+
+if TYPE_CHECKING:
+    from scipy.sparse import csr_array
+
+__all__ = ["Strays", "stray_strokes"]
+
+Bools = NDArray[np.bool_]
+
+ODDS = 10.0
+"""Log odds against a stroke to be a stray one."""
+BESIDE = 3.0
+"""Noise deviations from the walls from which on a stroke may be one."""
+NEAR = 8.0
+"""The same within which the walls are fitted."""
+LINK = 2.5
+"""Distances to the nearest neighbour, in the median, by which points of a stroke are apart at most."""
+ROW = 0.7
+"""Share of the tree that spans a stroke's points which its longest way has at least."""
+SUSPECTS = 5
+"""Strokes that are tried in a round."""
+MOST = 0.03
+"""Share of the points in stray strokes at most."""
+STEPS = 8
+
+
+@dataclass(frozen=True)
+class Strays:
+    """Points that are left out, and the model without them.
+
+    Parameters
+    ----------
+    kept : (n,) bool array
+    model : ExactModel
+    worth : float
+        What the points left out add to what the model is worth by the others, their odds taken off.
+    """
+
+    kept: Bools
+    model: ExactModel
+    worth: float
+
+    def among(self, points: Floats, sample: Floats) -> Bools:
+        """(n,) which of all points (n, 3) are kept: those whose next one in a sample (m, 3) is."""
+        from scipy.spatial import cKDTree  # noqa: PLC0415
+
+        return np.asarray(self.kept[cKDTree(sample).query(points)[1]])
+
+
+def stray_strokes(points: Floats, model: ExactModel, together: float) -> Strays:
+    """Leave out strokes, one at a time, as long as the model of the others gains more than the odds.
+
+    Parameters
+    ----------
+    points : (n, 3) float array
+    model : ExactModel
+        Fitted.
+    together : float
+        How many of the points go together; where it is one there are no strokes.
+
+    Notes
+    -----
+    A stray point is one of a few that lie anywhere, but those of a stray stroke come together, and a small
+    part of the thing that it lies beside bends to it. So a stroke is judged by what the model gains that is
+    fitted without it (a deletion diagnostic), not by how far it is from the walls.
+
+    References
+    ----------
+    R. D. Cook, Detection of influential observation in linear regression, Technometrics 19 (1977) 15-18.
+    """
+    kept, left, odds = np.ones(len(points), dtype=bool), model, 0.0
+    while together > 1 and sound(left) and (~kept).mean() < MOST:
+        inner = np.flatnonzero(kept)
+        tried = [_without(points[inner], left, row, together) for row in _suspects(points[inner], left)]
+        gain, model, row = max(tried, key=lambda trial: trial[0], default=(0.0, left, inner))
+        if gain <= ODDS:
+            break
+        kept[inner[row]], left, odds = False, model, odds + ODDS
+    away = points[~kept]
+    return Strays(kept, left, float(np.log(left.density.at(away)).sum()) / together - odds)
+
+
+def _without(points: Floats, model: ExactModel, row: Ints, together: float) -> tuple[float, ExactModel, Ints]:
+    """What the model without some of the points gains, those being as well off as any inside; and it."""
+    others = np.delete(points, row, axis=0)
+    before = fit_density(points, model, 1)
+    near = others[beside_walls(others, model, NEAR * model.sigma)]
+    after, _, _ = climb(near, fit_density(others, model, 1), STEPS)
+    after = fit_density(others, after, 1)
+    gone = float(np.log(after.density.at(points[row])).sum()) / together
+    gain = worth(others, after, together, len(points)) + gone - worth(points, before, together, len(points))
+    return gain, after, row
+
+
+def _suspects(points: Floats, model: ExactModel) -> list[Ints]:
+    """Rows of points beside the walls, those that cost most."""
+    from scipy.sparse import coo_array  # noqa: PLC0415
+    from scipy.sparse.csgraph import connected_components  # noqa: PLC0415
+    from scipy.spatial import cKDTree  # noqa: PLC0415
+
+    next_one, _ = cKDTree(points).query(points, [2])
+    apart = LINK * float(np.median(next_one))
+    near = np.flatnonzero(beside_walls(points, model, BESIDE * model.sigma))
+    pairs = cKDTree(points[near]).query_pairs(apart, output_type="ndarray")
+    start, end = points[near[pairs]].transpose(1, 0, 2)
+    lengths = np.linalg.norm(end - start, axis=1)
+    links = coo_array((lengths, pairs.T), shape=(len(near), len(near))).tocsr()
+    count, label = connected_components(links, directed=False)
+    cost = np.bincount(label, losses(points[near], model), count)
+    rows: list[Ints] = []
+    for k in np.argsort(-cost):
+        mine = np.flatnonzero(label == k)
+        if len(rows) == SUSPECTS or len(mine) == 1:
+            break
+        if len(mine) < MOST * len(points) and _in_a_row(links[mine][:, mine]):
+            rows.append(near[mine])
+    return rows
+
+
+def _in_a_row(links: csr_array) -> bool:
+    """Whether the longest way through the tree that spans linked points has most of it."""
+    from scipy.sparse import csr_array  # noqa: PLC0415
+    from scipy.sparse.csgraph import dijkstra, minimum_spanning_tree  # noqa: PLC0415
+
+    tree = csr_array(minimum_spanning_tree(links))
+    end = np.argmax(
+        dijkstra(tree, directed=False, indices=np.array([0]))
+    )  # of the longest way, as in any tree
+    return bool(dijkstra(tree, directed=False, indices=np.array([end])).max() >= ROW * tree.sum())

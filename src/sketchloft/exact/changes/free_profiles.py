@@ -18,12 +18,21 @@ from sketchloft.wall.revolved import Revolved, radius_at
 
 __all__ = ["splined"]
 
-SPANS = (4, 7, 11)
-"""Knot spans that are tried."""
+SPANS = {4: 0.0, 7: 1.0, 11: 2.5, 16: 2.5}
+"""Knot spans that are tried, and what each must gain that is more than before.
+
+A few poles more are no question of kind, and a curve that is too stiff is farther off than one that is a
+little too free (Akaike's criterion); where there are many, strokes lead some of them astray.
+"""
 
 
 def splined(points: Floats, model: ExactModel, together: float, fewest: int = 1) -> ExactModel:
-    """One free profile for a chain of so many revolved runs or more, with as many spans as pay."""
+    """One free profile for a chain of so many revolved runs or more, with as many spans as pay.
+
+    References
+    ----------
+    H. Akaike, A new look at the statistical model identification, IEEE Trans. Autom. Control 19 (1974).
+    """
     start = 0
     while start < len(model.stack.runs):
         stop = start
@@ -39,13 +48,12 @@ def splined(points: Floats, model: ExactModel, together: float, fewest: int = 1)
         if not _has_spline(model, range(start, stop)):
             entry = free_gain(stop - start, tangents, len(points), together)
         best: ExactModel | None = None
-        for spans in SPANS:
+        for spans, each in SPANS.items():
             source, last = (model, stop) if best is None else (best, start + 1)
             wall = _spline_through(points, source, start, last, spans)
             change = with_runs(source, start, last - 1, Run((wall,)))
-            handicap = entry if best is None else 0.0
-            if source is best and spans == SPANS[1]:
-                handicap = _akaike(source, change, len(points), together)
+            more = change.parameters - source.parameters
+            handicap = entry if best is None else each * more - price(more, len(points), together)
             better = tried(
                 points, source, Change(change, range(start, start + 1), handicap, free=True), together
             )
@@ -61,22 +69,6 @@ def _has_spline(model: ExactModel, runs: range) -> bool:
     """Whether a chain of runs, two or more, has a free profile in it, so that one more costs no faith."""
     walls = [sole_profile(model.stack.runs[j]) for j in runs]
     return len(walls) > 1 and any(w is not None and isinstance(w.profile, SplineProfile) for w in walls)
-
-
-def _akaike(model: ExactModel, finer: ExactModel, count: int, together: float) -> float:
-    """What a finer spline must gain less than its price.
-
-    Notes
-    -----
-    A few poles more are no question of kind, and a curve that is too stiff is farther off than one that is
-    a little too free; where there are many, strokes lead some of them astray.
-
-    References
-    ----------
-    H. Akaike, A new look at the statistical model identification, IEEE Trans. Autom. Control 19 (1974).
-    """
-    more = finer.parameters - model.parameters
-    return more - price(more, count, together)
 
 
 def _right(points: Floats, model: ExactModel, runs: range, together: float) -> bool:

@@ -9,6 +9,7 @@ from sketchloft.cloud import Floats
 from sketchloft.exact.section.section_contours import plan_view
 from sketchloft.exact.section.twist import seems_to_turn, twist_of, untwisted
 from sketchloft.exact.start.segments import SegmentsParams, segments
+from sketchloft.exact.start.start import start_along
 from sketchloft.sample import GOALS, sample_goal
 
 N = 6000
@@ -33,6 +34,14 @@ def test_known_cuts(name: str, known: list[float]) -> None:
     for seed in (1, 2, 3):
         found = cuts(sample_goal(GOALS[name], MANY, seed=seed).points)
         assert found == pytest.approx(known, abs=2.5 * BIN * (known[-1] - known[0]))
+
+
+def test_first_stacks_are_told_apart() -> None:
+    points = np.random.default_rng(1).uniform(-0.5, 0.5, (1500, 3)) * [1, 0.8, 0.6]
+    starts = [start_along(points, axis, (), SegmentsParams(), rough=True) for axis in np.eye(3)]
+    kept = list(starts)
+    kept.remove(starts[2])
+    assert kept == starts[:2]
 
 
 def test_with_few_points_no_cut_of_a_lamp_is_lost() -> None:

@@ -17,10 +17,11 @@ from sketchloft.exact.fit.inward_gap import without_gap
 from sketchloft.exact.fit.likelihood import beside_walls
 from sketchloft.exact.fit.sharpen import least_noise, sharpened
 from sketchloft.exact.model.density import Density
-from sketchloft.exact.model.exact_model import ExactModel
+from sketchloft.exact.model.exact_model import ExactModel, thicker
+from sketchloft.exact.search.stray_strokes import counted, stray_strokes
 from sketchloft.exact.section.level_set import level_set
 from sketchloft.exact.start.inside_density import inside_density
-from sketchloft.exact.start.start import BESIDE, ROOM
+from sketchloft.exact.start.start import BESIDE, ROOM, sampled
 from sketchloft.plan.from_model import planned_from_model
 from sketchloft.plan.plan import Plan, PlannedBody
 from sketchloft.plan.to_model import model_from_plan
@@ -146,5 +147,9 @@ def _refitted(points: Floats, model: ExactModel) -> ExactModel:
         model = fit_density(points, replace(model, sigma=noise), 2)
         near = beside_walls(points, model, BESIDE * noise)
         model, _, _ = climb(points[near], model, 10)
-    model, _, _ = sharpened(points, fit_density(points, model, 2), tilt=False)
-    return without_gap(model, least_noise(model, len(points)))
+    sample = sampled(points)
+    every = len(points) / len(sample)
+    strays = stray_strokes(sample, thicker(model, 1 / every), dispersion(sample))
+    kept, model = points[strays.among(points, sample)], thicker(strays.model, every)
+    model, _, _ = sharpened(kept, fit_density(kept, model, 2), tilt=False)
+    return counted(without_gap(model, least_noise(model, len(kept))), len(points) - len(kept))

@@ -22,7 +22,7 @@ from sketchloft.exact.model.soundness import sound
 from sketchloft.exact.search.coaxial import coaxial
 from sketchloft.exact.search.flush import flush
 from sketchloft.exact.search.resection import resectioned
-from sketchloft.exact.search.stray_strokes import stray_strokes
+from sketchloft.exact.search.stray_strokes import counted, stray_strokes
 from sketchloft.exact.search.upended import upended
 from sketchloft.exact.search.upright import upright
 from sketchloft.exact.start.start import BESIDE, Start
@@ -148,6 +148,5 @@ def _found(start: Start, *, tilt: bool, lofts: bool, progress: Callable[[str], N
     value = worth(sample @ turn, model, together, len(start.sample)) + strays.worth
     blurred = replace(model, sigma=max(model.sigma, AT_LEAST))
     left = misfit(sample @ turn, blurred, range(len(model.stack.runs)), together)
-    model, turn, gone = thicker(model, every), start.settling @ turn, len(start.points) - len(points)
-    model = replace(model, stray=model.stray + gone / model.space)
+    model, turn = counted(thicker(model, every), len(start.points) - len(points)), start.settling @ turn
     return Found(start, model, start.points @ turn, turn, value, left)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,7 +18,7 @@ from sketchloft.exact.model.soundness import sound
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
 
-__all__ = ["Strays", "stray_strokes"]
+__all__ = ["Strays", "counted", "stray_strokes"]
 
 Bools = NDArray[np.bool_]
 
@@ -57,9 +57,16 @@ class Strays:
 
     def among(self, points: Floats, sample: Floats) -> Bools:
         """(n,) which of all points (n, 3) are kept: those whose next one in a sample (m, 3) is."""
+        if self.kept.all():
+            return np.ones(len(points), dtype=bool)
         from scipy.spatial import cKDTree  # noqa: PLC0415
 
         return np.asarray(self.kept[cKDTree(sample).query(points)[1]])
+
+
+def counted(model: ExactModel, points: int) -> ExactModel:
+    """Return the model with so many points more among its strays."""
+    return replace(model, stray=model.stray + points / model.space)
 
 
 def stray_strokes(points: Floats, model: ExactModel, together: float) -> Strays:

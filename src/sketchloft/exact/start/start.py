@@ -22,7 +22,7 @@ from sketchloft.exact.start.segments import SegmentsParams, segments
 from sketchloft.frame import Frame, frame_along, principal_frame
 from sketchloft.wall.swept import Swept
 
-__all__ = ["BESIDE", "ROOM", "SEARCH_POINTS", "Start", "directions", "start_along"]
+__all__ = ["BESIDE", "ROOM", "SEARCH_POINTS", "Start", "directions", "sampled", "start_along"]
 
 START = 0.006
 """Noise that the search begins with, as a share of the size."""
@@ -121,7 +121,7 @@ def start_along(
     """
     frame = frame_along(vector, points)
     local = np.round(frame.to_local(points), DIGITS)
-    sample = _sampled(local)
+    sample = sampled(local)
     grid, together, kept = _seen(sample)
     if hollow_share(grid) > HOLLOW:
         raise StageError(
@@ -156,14 +156,14 @@ def directions(points: Floats, params: SegmentsParams) -> tuple[Candidate, ...]:
     They are found in the frame of the principal axes, so that they turn with the cloud.
     """
     frame = principal_frame(points)
-    grid, together, kept = _seen(_sampled(np.round(frame.to_local(points), DIGITS)))
+    grid, together, kept = _seen(sampled(np.round(frame.to_local(points), DIGITS)))
     mean = kept.mean(axis=0)
     grid = replace(grid, origin=grid.origin - mean)
     found = exact_direction(kept - mean, grid, params, clump(together))
     return tuple(replace(candidate, vector=frame.to_world(candidate.vector)) for candidate in found)
 
 
-def _sampled(points: Floats) -> Floats:
+def sampled(points: Floats) -> Floats:
     """Every so many points, as many as the search looks at."""
     return points[:: len(points) // SEARCH_POINTS + 1]
 

@@ -20,7 +20,7 @@ from sketchloft.intervals import cheapest_chain
 from sketchloft.outline.polygons import Polygon
 from sketchloft.outline.rectilinear import RectilinearPolygon
 from sketchloft.stack import Run, Wall, section_boundary
-from sketchloft.wall.profile import Profile, SplineProfile
+from sketchloft.wall.profile import LineProfile, Profile, SplineProfile
 from sketchloft.wall.revolved import Revolved, radius_at, sizes
 from sketchloft.wall.swept import Freedom, Swept
 
@@ -34,6 +34,7 @@ SHORTEST = 4
 TINY = 1e-12
 HOLE = 12.0
 """What a hole must gain: strokes leave many places empty by chance."""
+HEIGHTS = 25
 TIP = 0.1
 """Height, in sizes of the cloud, of the tip that a flat end may lack to be taken for a pole."""
 FLAT = 6.0
@@ -41,7 +42,7 @@ FLAT = 6.0
 
 
 def merges(model: ExactModel) -> Iterator[Change]:
-    """A run left to a neighbour, or at an end to nobody, the shortest first."""
+    """A run left to a neighbour, or at an end to nobody, or one wall for both, the shortest first."""
     runs = model.stack.runs
     count = len(runs)
     if count == 1:
@@ -52,12 +53,27 @@ def merges(model: ExactModel) -> Iterator[Change]:
             if 0 <= heir < count:
                 first = min(j, heir)
                 yield Change(without_run(model, j, heir), range(first, first + 1))
-                slanted = _slanted(model, heir, j)
-                if slanted is not None:
-                    yield Change(with_runs(model, first, first + 1, slanted), range(first, first + 1))
+                for run in (_slanted(model, heir, j), *_through_both(model, first)):
+                    if run is not None:
+                        yield Change(with_runs(model, first, first + 1, run), range(first, first + 1))
         if j in (0, count - 1):
             place = 0 if j == 0 else count - 2
             yield Change(without_run(model, j, None), range(place, place + 1))
+
+
+def _through_both(model: ExactModel, first: int) -> Iterator[Run]:
+    """The cone and the sphere nearest to the profiles of a run and the next one, if both are revolved."""
+    walls = [sole_profile(run) for run in model.stack.runs[first : first + 2]]
+    below, above = walls
+    if below is None or above is None:
+        return
+    low, middle, high = model.stack.breaks[first : first + 3].tolist()
+    z = np.linspace(low, high, HEIGHTS)
+    r = np.where(z < middle, radius_at(below.profile, z)[0], radius_at(above.profile, z)[0])
+    longer = below if middle - low > high - middle else above
+    for profile in profiles_like(z, r):
+        if not (isinstance(profile, LineProfile) and profile.slope is None):
+            yield Run((Revolved(longer.centre, profile),))
 
 
 def _slanted(model: ExactModel, heir: int, other: int) -> Run | None:

@@ -15,7 +15,17 @@ from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.joins import natural_joins
 from sketchloft.exact.model.soundness import detached, slits
 
-__all__ = ["FREE_GAIN", "MOST_NOISE", "PER_RUN", "Change", "free_gain", "tried", "tried_free", "worth"]
+__all__ = [
+    "FREE_GAIN",
+    "MOST_NOISE",
+    "PER_RUN",
+    "Change",
+    "fitted",
+    "free_gain",
+    "tried",
+    "tried_free",
+    "worth",
+]
 
 BESIDE = 6.0
 """Noise deviations from the walls within which points decide."""
@@ -137,6 +147,24 @@ def tried(points: Floats, model: ExactModel, change: Change, together: float) ->
             return None
     candidate = natural_joins(candidate)
     return candidate if worth(near, candidate, together, count) > least else None
+
+
+def fitted(points: Floats, model: ExactModel, change: Change, together: float) -> ExactModel:
+    """Fit a changed model around its change, whether it pays or not.
+
+    Parameters
+    ----------
+    points : (n, 3) float array
+    model : ExactModel
+        What is changed.
+    change : Change
+    together : float
+        How many of the points go together.
+    """
+    near = _beside_either(points[_at_heights(points, change.model, change.runs)], model, change.model)
+    wide = _with_neighbours(change.model, change.runs)
+    candidate, _, _ = climb(near, change.model, SETTLED, runs=wide, enough=ENOUGH * together)
+    return fit_density(points, natural_joins(candidate), 1)
 
 
 def tried_free(

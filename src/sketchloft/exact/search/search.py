@@ -19,10 +19,11 @@ from sketchloft.exact.fit.sharpen import least_noise, sharpened
 from sketchloft.exact.model.exact_model import ExactModel, thicker
 from sketchloft.exact.model.joins import natural_joins
 from sketchloft.exact.model.soundness import sound
+from sketchloft.exact.search.absorbed import without_absorbed
 from sketchloft.exact.search.coaxial import coaxial
 from sketchloft.exact.search.flush import flush
 from sketchloft.exact.search.resection import resectioned
-from sketchloft.exact.search.stray_strokes import counted, stray_strokes
+from sketchloft.exact.search.stray_strokes import counted
 from sketchloft.exact.search.upended import upended
 from sketchloft.exact.search.upright import upright
 from sketchloft.exact.start.start import BESIDE, Start
@@ -129,7 +130,7 @@ def _found(start: Start, *, tilt: bool, lofts: bool, progress: Callable[[str], N
     again = resectioned(sample @ turn, model, together, start.cuts, (start.settling @ turn)[2, 2])
     if again is not model:
         model = improved(sample @ turn, again, together, lofts=lofts)
-    strays = stray_strokes(sample @ turn, model, together)
+    strays = without_absorbed(sample @ turn, model, together)
     points, model = start.points @ start.settling, strays.model
     if not strays.kept.all():
         points, sample = points[strays.among(points, sample)], sample[strays.kept]

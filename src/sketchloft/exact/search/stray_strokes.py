@@ -34,6 +34,8 @@ ROW = 0.7
 """Share of the tree that spans a stroke's points which its longest way has at least."""
 SUSPECTS = 5
 """Strokes that are tried in a round."""
+COST = 2.0
+"""What their points cost at least beside ones inside."""
 MOST = 0.03
 """Share of the points in stray strokes at most."""
 STEPS = 8
@@ -93,7 +95,9 @@ def stray_strokes(points: Floats, model: ExactModel, together: float) -> Strays:
     kept, left, odds = np.ones(len(points), dtype=bool), model, 0.0
     while together > 1 and sound(left) and (~kept).mean() < MOST:
         inner = np.flatnonzero(kept)
-        tried = [_without(points[inner], left, row, together) for row in _suspects(points[inner], left)]
+        tried = [
+            _without(points[inner], left, row, together) for row in _suspects(points[inner], left, together)
+        ]
         gain, model, row = max(tried, key=lambda trial: trial[0], default=(0.0, left, inner))
         if gain <= ODDS:
             break
@@ -114,7 +118,7 @@ def _without(points: Floats, model: ExactModel, row: Ints, together: float) -> t
     return gain, after, row
 
 
-def _suspects(points: Floats, model: ExactModel) -> list[Ints]:
+def _suspects(points: Floats, model: ExactModel, together: float) -> list[Ints]:
     """Rows of points beside the walls, those that cost most."""
     from scipy.sparse import coo_array  # noqa: PLC0415
     from scipy.sparse.csgraph import connected_components  # noqa: PLC0415
@@ -128,11 +132,11 @@ def _suspects(points: Floats, model: ExactModel) -> list[Ints]:
     lengths = np.linalg.norm(end - start, axis=1)
     links = coo_array((lengths, pairs.T), shape=(len(near), len(near))).tocsr()
     count, label = connected_components(links, directed=False)
-    cost = np.bincount(label, losses(points[near], model), count)
+    cost = np.bincount(label, losses(points[near], model), count) / together
     rows: list[Ints] = []
     for k in np.argsort(-cost):
         mine = np.flatnonzero(label == k)
-        if len(rows) == SUSPECTS or len(mine) == 1:
+        if len(rows) == SUSPECTS or cost[k] < COST:
             break
         if len(mine) < MOST * len(points) and _in_a_row(links[mine][:, mine]):
             rows.append(near[mine])

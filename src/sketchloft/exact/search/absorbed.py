@@ -1,0 +1,69 @@
+"""Absorbed: runs that are there for a stray stroke, left to their neighbours together with it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from sketchloft.cloud import Floats
+from sketchloft.exact.changes.changes import merges
+from sketchloft.exact.changes.trial import fitted, worth
+from sketchloft.exact.model.exact_model import ExactModel
+from sketchloft.exact.search.stray_strokes import Strays, stray_strokes
+
+__all__ = ["without_absorbed"]
+
+SMALL = 0.1
+"""Share of the points that a run holds less of if a stroke may be what it is there for."""
+HOPELESS = 100.0
+"""A model that is so much worse than the other before its strays are left out is given up."""
+
+
+def without_absorbed(points: Floats, model: ExactModel, together: float) -> Strays:
+    """Leave out stray strokes, and with them, as long as it pays, small runs that hold little else.
+
+    Parameters
+    ----------
+    points : (n, 3) float array
+    model : ExactModel
+        Fitted.
+    together : float
+        How many of the points go together.
+
+    Notes
+    -----
+    A stroke beside a narrow part of the thing is no stray to a model that has a run of its own for it, and
+    without that run it is to be explained. Only both together pay.
+    """
+    strays = stray_strokes(points, model, together)
+    while together > 1 and _holds_few(points[strays.kept], strays.model):
+        better = _simpler(points, strays, together)
+        if better is None:
+            break
+        strays = better
+    return strays
+
+
+def _holds_few(points: Floats, model: ExactModel) -> bool:
+    counts, _ = np.histogram(points[:, 2], model.stack.breaks)
+    return len(counts) > 1 and bool((counts < SMALL * len(points)).any())
+
+
+def _simpler(points: Floats, strays: Strays, together: float) -> Strays | None:
+    """A run less, with a stroke less, the best of all that pay."""
+    inner = points[strays.kept]
+    best, most = None, worth(inner, strays.model, together, len(points))
+    for change in merges(strays.model):
+        candidate = fitted(inner, strays.model, change, together)
+        if worth(inner, candidate, together, len(points)) < most - HOPELESS:
+            continue
+        found = stray_strokes(inner, candidate, together)
+        value = worth(inner[found.kept], found.model, together, len(points)) + found.worth
+        if value > most and not found.kept.all():
+            best, most = found, value
+    if best is None:
+        return None
+    kept = strays.kept.copy()
+    kept[kept] = best.kept
+    return replace(best, kept=kept, worth=strays.worth + best.worth)

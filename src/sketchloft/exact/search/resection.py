@@ -42,18 +42,18 @@ def resectioned(
         Cosine of the angle between the direction then and now.
     """
     for j in range(len(model.stack.runs)):
-        again = _moved(model, j, cuts, upright) and not _settled(points, model, j, together)
+        again = _moved(model, j, cuts, upright, together) and not _settled(points, model, j, together)
         change = _change(points, model, j, together) if again else None
         if change is not None:
             model = tried(points, model, change, together) or model
     return model
 
 
-def _moved(model: ExactModel, j: int, cuts: Floats, upright: float) -> bool:
-    """Whether a break of a run, or its walls with the direction, are elsewhere than they were, or it grew."""
+def _moved(model: ExactModel, j: int, cuts: Floats, upright: float, together: float) -> bool:
+    """Whether a break of a run, or its walls with the direction, are elsewhere; or strokes let it grow."""
     low, high = model.stack.breaks[[j, j + 1]].tolist()
     near = MOVED * model.sigma
-    if ((cuts > low + near) & (cuts < high - near)).any():
+    if together > 1 and ((cuts > low + near) & (cuts < high - near)).any():
         return True
     leaning = (high - low) * float(np.sqrt(max(1 - upright**2, 0.0)))
     return max(leaning, *(float(np.abs(cuts - z).min()) for z in (low, high))) > near

@@ -20,6 +20,8 @@ CLOSE = 0.03
 no points go together; one that is behind for want of symmetry only is looked at whatever its distance."""
 SAME = 0.9994
 """Cosine of the angle within which the fit of a first stack finds the same direction."""
+BESIDE = 0.996
+"""The same for the direction from a ball to what is beside it, which is known to a few degrees."""
 CONTENDERS = 2
 """Directions beside the best whose first stacks are looked at."""
 BLURRED_CONTENDERS = 4
@@ -73,7 +75,7 @@ def started(
         best = max(starts, key=_value)
     balls = [through_sphere(start) for start in sorted(starts, key=_value, reverse=True) if candidates]
     through = next((direction for direction in balls if direction is not None), None)
-    if through is not None and all(abs(float(through @ start.direction)) < SAME for start in starts):
+    if through is not None and all(abs(float(through @ start.direction)) < BESIDE for start in starts):
         starts.append(start_along(points, through, best.candidates, params))
         best = max(starts, key=_value)
     if blurred and not best.plain:

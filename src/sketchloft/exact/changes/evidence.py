@@ -12,7 +12,7 @@ from sketchloft.exact.changes.free_profiles import splined
 from sketchloft.exact.changes.free_walls import lofted, ruled
 from sketchloft.exact.changes.rings import rings
 from sketchloft.exact.changes.trial import Change, tried, worth
-from sketchloft.exact.model.exact_model import ExactModel
+from sketchloft.exact.model.exact_model import ExactModel, Join
 
 __all__ = ["improved", "merged"]
 
@@ -21,6 +21,7 @@ CHAIN = 3
 ROUNDS = 2
 """How often all changes are looked through at most."""
 
+Form = tuple[tuple[Join, ...], tuple[tuple[tuple[str, int], ...], ...]]
 Changes = Callable[[ExactModel], Iterator[Change]]
 
 
@@ -91,6 +92,12 @@ def _changed(points: Floats, model: ExactModel, together: float, *, lofts: bool)
     return model
 
 
+def _form(model: ExactModel) -> Form:
+    """The joins, and kind and number of parameters of all walls, run by run."""
+    walls = tuple(tuple((wall.kind, len(wall.vector)) for wall in run.walls) for run in model.stack.runs)
+    return model.joins, walls
+
+
 def _through(
     points: Floats,
     model: ExactModel,
@@ -102,15 +109,17 @@ def _through(
 ) -> ExactModel:
     """Look through a kind of changes but those that failed from the same start; keep those that fail now.
 
-    After one that pays go on in its place, or `again` from the start.
+    After one that pays go on in its place, or `again` from the start; but never back to what was left, as
+    not all changes are judged with the same noise.
     """
-    place = 0
+    place, left = 0, set[Form]()
     while True:
         for k, change in enumerate(changes(model)):
-            if k < place or change.key in failed:
+            if k < place or change.key in failed or _form(change.model) in left:
                 continue
             better = tried(points, model, change, together)
             if better is not None:
+                left.add(_form(model))
                 model, place = better, 0 if again else k
                 break
             failed.add(change.key)

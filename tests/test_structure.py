@@ -13,6 +13,7 @@ from sketchloft.direction import Axis, DirectionParams
 from sketchloft.exact.body import ExactBody
 from sketchloft.exact.changes.evidence import improved
 from sketchloft.exact.changes.misfit import misfit
+from sketchloft.exact.changes.trial import Change
 from sketchloft.exact.model.density import Density
 from sketchloft.exact.model.exact_model import ExactModel, model_of
 from sketchloft.exact.model.soundness import detached, sound
@@ -141,6 +142,23 @@ def test_an_l_from_either_side_has_eight_planes() -> None:
 
 
 # Upright walls
+
+
+@pytest.mark.slow
+def test_a_search_that_takes_every_change_comes_to_an_end(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It never goes back to what it left: a change is not judged as the one back would be."""
+    taken: list[ExactModel] = []
+
+    def take(points: Floats, model: ExactModel, change: Change, together: float) -> ExactModel:
+        del points, model, together
+        taken.append(change.model)
+        assert len(taken) < 300
+        return change.model
+
+    monkeypatch.setattr("sketchloft.exact.changes.evidence.tried", take)
+    stack = stack_of([-0.2, 0.0, 0.2], prism(0.5, 0.4), prism(0.3, 0.2))
+    improved(drawn(stack, 1500), model_at(stack, count=1500), 1.0, lofts=False)
+    assert len(taken) > 3
 
 
 def test_a_cylinder_seen_askew_stands_straight() -> None:

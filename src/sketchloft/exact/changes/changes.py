@@ -6,99 +6,35 @@ from collections.abc import Iterator
 from dataclasses import replace
 from itertools import pairwise
 
-import numpy as np
-
 from sketchloft.cloud import Floats
 from sketchloft.exact.changes.section_radii import SectionRadii, piece_costs, section_radii
 from sketchloft.exact.changes.simpler_walls import profiles_like, walls_like
 from sketchloft.exact.changes.trial import FREE_GAIN, Change, free_gain
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.joins import end_pole, natural_joins, sole_profile
-from sketchloft.exact.model.surgery import with_run, with_runs, with_split, with_wall, without_run
+from sketchloft.exact.model.surgery import with_run, with_split, with_wall
 from sketchloft.exact.section.rarity import rarity
 from sketchloft.intervals import cheapest_chain
 from sketchloft.outline.polygons import Polygon
 from sketchloft.outline.rectilinear import RectilinearPolygon
-from sketchloft.stack import Run, Wall, section_boundary
-from sketchloft.wall.profile import LineProfile, Profile, SplineProfile
+from sketchloft.stack import Run, Wall
+from sketchloft.wall.profile import Profile, SplineProfile
 from sketchloft.wall.revolved import Revolved, radius_at, sizes
-from sketchloft.wall.swept import Freedom, Swept
+from sketchloft.wall.swept import Swept
 
-__all__ = ["closings", "fillings", "merges", "splits", "swaps"]
+__all__ = ["closings", "fillings", "splits", "swaps"]
 
 PIECE = 8.0
 """What a piece of a profile must gain for there to be more than three, in squared deviations."""
 MOST_PIECES = 6
 SHORTEST = 4
 """Radii that each part has at least."""
-TINY = 1e-12
 HOLE = 12.0
 """What a hole must gain: strokes leave many places empty by chance."""
-HEIGHTS = 25
 TIP = 0.1
 """Height, in sizes of the cloud, of the tip that a flat end may lack to be taken for a pole."""
 FLAT = 6.0
 """What a flat end must gain over a pole."""
-
-
-def merges(model: ExactModel) -> Iterator[Change]:
-    """A run left to a neighbour, or at an end to nobody, or one wall for both, the shortest first."""
-    runs = model.stack.runs
-    count = len(runs)
-    if count == 1:
-        return
-    order = np.argsort(np.diff(model.stack.breaks))
-    for j in (int(k) for k in order):
-        for heir in (j - 1, j + 1):
-            if 0 <= heir < count:
-                first = min(j, heir)
-                yield Change(without_run(model, j, heir), range(first, first + 1))
-                for run in (_slanted(model, heir, j), *_through_both(model, first)):
-                    if run is not None:
-                        yield Change(with_runs(model, first, first + 1, run), range(first, first + 1))
-        if j in (0, count - 1):
-            place = 0 if j == 0 else count - 2
-            yield Change(without_run(model, j, None), range(place, place + 1))
-
-
-def _through_both(model: ExactModel, first: int) -> Iterator[Run]:
-    """The cone and the sphere nearest to the profiles of a run and the next one, if both are revolved."""
-    walls = [sole_profile(run) for run in model.stack.runs[first : first + 2]]
-    below, above = walls
-    if below is None or above is None:
-        return
-    low, middle, high = model.stack.breaks[first : first + 3].tolist()
-    z = np.linspace(low, high, HEIGHTS)
-    r = np.where(z < middle, radius_at(below.profile, z)[0], radius_at(above.profile, z)[0])
-    longer = below if middle - low > high - middle else above
-    for profile in profiles_like(z, r):
-        if not (isinstance(profile, LineProfile) and profile.slope is None):
-            yield Run((Revolved(longer.centre, profile),))
-
-
-def _slanted(model: ExactModel, heir: int, other: int) -> Run | None:
-    """The run of the heir, moving and growing so that it leads into the other; None if it cannot."""
-    walls, breaks = model.stack.runs[heir].walls, model.stack.breaks
-    others = model.stack.runs[other].walls
-    if len(walls) != len(others):
-        return None
-    here, there = ((breaks[k] + breaks[k + 1]) / 2 for k in (heir, other))
-    slanted: list[Wall] = []
-    for wall, beyond in zip(walls, others, strict=True):
-        if not isinstance(wall, Swept):
-            return None
-        free: tuple[Freedom, ...] = (
-            ("drift", "taper", "twist") if "twist" in wall.free else ("drift", "taper")
-        )
-        if wall.free:
-            slanted.append(replace(wall, free=free))
-            continue
-        start, end = (section_boundary(w, z, 48).centre for w, z in ((wall, here), (beyond, there)))
-        areas = [max(float(w.area(np.array([z]))[0]), TINY) for w, z in ((wall, here), (beyond, there))]
-        growth = np.sqrt(areas[1] / areas[0]) - 1
-        drift, taper = (end - start) / (there - here), float(growth) / (there - here)
-        slanted.append(replace(wall, pivot=start, drift=drift, taper=taper, height=here, free=free))
-    return Run(tuple(slanted), model.stack.runs[heir].holes)
 
 
 def splits(points: Floats, model: ExactModel, together: float) -> Iterator[Change]:

@@ -5,13 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 from sketchloft.cloud import Floats
-from sketchloft.exact.changes.changes import closings, fillings, merges, splits, swaps
+from sketchloft.exact.changes.changes import closings, fillings, splits, swaps
 from sketchloft.exact.changes.filleted_walls import filleted
 from sketchloft.exact.changes.free_outlines import with_poles_that_pay
 from sketchloft.exact.changes.free_profiles import splined
 from sketchloft.exact.changes.free_walls import lofted, ruled
+from sketchloft.exact.changes.merges import merges
 from sketchloft.exact.changes.rings import rings
-from sketchloft.exact.changes.trial import Change, tried, worth
+from sketchloft.exact.changes.trial import Change, tried
+from sketchloft.exact.changes.worth import worth
 from sketchloft.exact.model.exact_model import ExactModel, Join
 
 __all__ = ["improved", "merged"]

@@ -9,7 +9,8 @@ from sketchloft.exact.changes.loft_start import loft_start
 from sketchloft.exact.changes.misfit import HOPE, misfit
 from sketchloft.exact.changes.ruled_start import ruled_start
 from sketchloft.exact.changes.square_to_round import square_to_round
-from sketchloft.exact.changes.trial import PER_RUN, Change, tried_free
+from sketchloft.exact.changes.trial import Change, tried_free
+from sketchloft.exact.changes.worth import PER_RUN
 from sketchloft.exact.fit.schwarz import price
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.surgery import with_runs

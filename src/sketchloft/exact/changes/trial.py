@@ -8,23 +8,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sketchloft.cloud import Floats
+from sketchloft.exact.changes.worth import worth
 from sketchloft.exact.fit.climb import climb, fit_density, promise
-from sketchloft.exact.fit.likelihood import beside_walls, value_of
+from sketchloft.exact.fit.likelihood import beside_walls
 from sketchloft.exact.fit.schwarz import price
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.joins import natural_joins
-from sketchloft.exact.model.soundness import detached, slits
 
 __all__ = [
     "FREE_GAIN",
     "MOST_NOISE",
-    "PER_RUN",
     "Change",
     "fitted",
     "free_gain",
     "tried",
     "tried_free",
-    "worth",
 ]
 
 BESIDE = 6.0
@@ -48,16 +46,6 @@ FREE_GAIN = 20.0
 """What a free profile must gain over lines and arcs."""
 CHAIN_GAIN = 6.0
 """The same over three of them or more: a designer draws so many rarely where one curve would do."""
-SHORT = 8.0
-"""Runs shorter than so many noise deviations are taken for noise unless they gain a lot."""
-DETACHED = 300.0
-"""What a wall must gain that does not reach the run beside it."""
-SLIT = 40.0
-"""What a slit must gain: by chance there are no points in some that are thin enough."""
-PER_RUN = 2
-"""Parameters that a run is priced as, beside those of its walls."""
-SHORTNESS = 12.0
-"""What a run of no length at all must gain."""
 
 
 @dataclass(frozen=True)
@@ -208,15 +196,6 @@ def tried_free(
     candidate = natural_joins(candidate)
     gain = value(candidate) - least
     return replace(candidate, sigma=sigma) if gain > 0 else None, gain
-
-
-def worth(points: Floats, model: ExactModel, together: float, count: int) -> float:
-    """Log likelihood of some of a cloud's points (n, 3), less the price of the model for all of them."""
-    lengths = np.diff(model.stack.breaks)
-    short = np.maximum(1 - lengths / (SHORT * model.sigma), 0.0)
-    odd = SHORTNESS * float(short.sum()) + DETACHED * detached(model) + SLIT * slits(model)
-    parameters = model.parameters + PER_RUN * len(lengths)
-    return value_of(points, model) / together - (price(parameters, count, together) + odd)
 
 
 def _with_neighbours(model: ExactModel, runs: range) -> range:

@@ -7,8 +7,9 @@ from dataclasses import replace
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.exact.changes.changes import merges
-from sketchloft.exact.changes.trial import fitted, worth
+from sketchloft.exact.changes.merges import merges
+from sketchloft.exact.changes.trial import fitted
+from sketchloft.exact.changes.worth import worth
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.search.stray_strokes import Strays, stray_strokes
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.exact.changes.simpler_walls import as_revolved
-from sketchloft.exact.changes.trial import worth
+from sketchloft.exact.changes.worth import worth
 from sketchloft.exact.fit.climb import climb
 from sketchloft.exact.fit.likelihood import beside_walls
 from sketchloft.exact.fit.tilt import onto_z

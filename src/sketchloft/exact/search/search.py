@@ -11,7 +11,7 @@ import numpy as np
 from sketchloft.cloud import Floats
 from sketchloft.exact.changes.evidence import improved, merged
 from sketchloft.exact.changes.misfit import misfit
-from sketchloft.exact.changes.trial import worth
+from sketchloft.exact.changes.worth import worth
 from sketchloft.exact.fit.climb import climb
 from sketchloft.exact.fit.inward_gap import without_gap
 from sketchloft.exact.fit.likelihood import beside_walls

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sketchloft.cloud import Floats, Ints
-from sketchloft.exact.changes.trial import worth
+from sketchloft.exact.changes.worth import worth
 from sketchloft.exact.fit.climb import climb, fit_density
 from sketchloft.exact.fit.likelihood import beside_walls, losses
 from sketchloft.exact.model.exact_model import ExactModel

@@ -10,7 +10,7 @@ import numpy as np
 from sketchloft.cloud import Floats
 from sketchloft.exact.changes.evidence import improved
 from sketchloft.exact.changes.filleted_walls import fillets
-from sketchloft.exact.changes.trial import worth
+from sketchloft.exact.changes.worth import worth
 from sketchloft.exact.fit.climb import fit_density
 from sketchloft.exact.fit.likelihood import value_of
 from sketchloft.exact.model.density import Density

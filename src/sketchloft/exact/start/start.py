@@ -10,7 +10,8 @@ from sketchloft.cloud import Floats
 from sketchloft.dispersion import clump, dispersion
 from sketchloft.errors import StageError
 from sketchloft.exact.changes.evidence import merged
-from sketchloft.exact.changes.trial import MOST_NOISE, worth
+from sketchloft.exact.changes.trial import MOST_NOISE
+from sketchloft.exact.changes.worth import worth
 from sketchloft.exact.fit.climb import climb, fit_density
 from sketchloft.exact.fit.likelihood import beside_walls
 from sketchloft.exact.model.exact_model import ExactModel

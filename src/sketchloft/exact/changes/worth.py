@@ -1,0 +1,33 @@
+"""Worth: what a model tells of the points, less what it costs to say it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from sketchloft.cloud import Floats
+from sketchloft.exact.fit.likelihood import value_of
+from sketchloft.exact.fit.schwarz import price
+from sketchloft.exact.model.exact_model import ExactModel
+from sketchloft.exact.model.soundness import detached, slits
+
+__all__ = ["PER_RUN", "worth"]
+
+SHORT = 8.0
+"""Runs shorter than so many noise deviations are taken for noise unless they gain a lot."""
+DETACHED = 300.0
+"""What a wall must gain that does not reach the run beside it."""
+SLIT = 40.0
+"""What a slit must gain: by chance there are no points in some that are thin enough."""
+PER_RUN = 2
+"""Parameters that a run is priced as, beside those of its walls."""
+SHORTNESS = 12.0
+"""What a run of no length at all must gain."""
+
+
+def worth(points: Floats, model: ExactModel, together: float, count: int) -> float:
+    """Log likelihood of some of a cloud's points (n, 3), less the price of the model for all of them."""
+    lengths = np.diff(model.stack.breaks)
+    short = np.maximum(1 - lengths / (SHORT * model.sigma), 0.0)
+    odd = SHORTNESS * float(short.sum()) + DETACHED * detached(model) + SLIT * slits(model)
+    parameters = model.parameters + PER_RUN * len(lengths)
+    return value_of(points, model) / together - (price(parameters, count, together) + odd)

@@ -15,6 +15,7 @@ from sketchloft.outline.polygons import LineArc, Polygon, has_slit
 from sketchloft.outline.rectilinear import RectilinearPolygon
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import SplineLoop
+from sketchloft.ring import ring_area
 from sketchloft.stack import Run, Wall, section_boundary
 from sketchloft.wall.filleted import Filleted
 from sketchloft.wall.lofted import Lofted
@@ -108,7 +109,7 @@ def _closes(wall: Wall) -> bool:
 
 
 def _simple(wall: Wall, heights: Floats) -> bool:
-    """Whether the sections at heights (m,) nowhere cross themselves."""
+    """Whether the sections at heights (m,) nowhere cross themselves, and are not turned inside out."""
     from shapely import is_valid, linearrings, polygons  # noqa: PLC0415
 
     if isinstance(wall, Lofted):
@@ -120,7 +121,8 @@ def _simple(wall: Wall, heights: Floats) -> bool:
         rings = wall.outline.boundary(64).points[None]
     else:
         return True
-    return bool(is_valid(polygons(linearrings(rings))).all())
+    outwards = all(ring_area(ring) > 0 for ring in rings)
+    return outwards and bool(is_valid(polygons(linearrings(rings))).all())
 
 
 def covers(wall: Wall, low: float, high: float) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -222,6 +223,18 @@ def test_pieces_that_overlap_and_holes_that_break_through_are_unsound() -> None:
     assert sound(known(stack(apart=0.25, out=0.05))[1])
     assert not sound(known(stack(apart=0.15, out=0.05))[1])
     assert not sound(known(stack(apart=0.25, out=0.15))[1])
+
+
+@pytest.mark.parametrize("drawn", [Polygon, spline_loop, lambda ring: RoundedPolygon(ring, 0.01)])
+def test_an_outline_turned_inside_out_is_unsound(drawn: Callable[[Floats], Outline]) -> None:
+    """All the rest of the world would be inside, and explain any cloud."""
+
+    def prism(ring: Floats) -> Stack:
+        return Stack(BREAKS, (Run((Swept(drawn(ring), 0.05, ORIGIN, ORIGIN),)),))
+
+    model = known(prism(ELL))[1]
+    assert sound(model)
+    assert not sound(replace(model, stack=prism(ELL[::-1])))
 
 
 def test_a_slit_that_nobody_draws_is_seen() -> None:

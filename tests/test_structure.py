@@ -146,7 +146,7 @@ def test_an_l_from_either_side_has_eight_planes() -> None:
 
 @pytest.mark.slow
 def test_a_search_that_takes_every_change_comes_to_an_end(monkeypatch: pytest.MonkeyPatch) -> None:
-    """It never goes back to what it left: a change is not judged as the one back would be."""
+    """It goes back to what it left once: a change is not always judged as the one back is."""
     taken: list[ExactModel] = []
 
     def take(points: Floats, model: ExactModel, change: Change, together: float) -> ExactModel:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterator
 
 from sketchloft.cloud import Floats
@@ -20,6 +21,7 @@ __all__ = ["improved", "merged"]
 
 CHAIN = 3
 """Runs that merging may hide from a free profile in their place."""
+TWICE = 2
 ROUNDS = 2
 """How often all changes are looked through at most."""
 
@@ -111,17 +113,17 @@ def _through(
 ) -> ExactModel:
     """Look through a kind of changes but those that failed from the same start; keep those that fail now.
 
-    After one that pays go on in its place, or `again` from the start; but never back to what was left, as
-    not all changes are judged with the same noise.
+    After one that pays go on in its place, or `again` from the start. As not all changes are judged with the
+    same noise, two may lead to and fro for ever, so that what was left twice is not gone back to.
     """
-    place, left = 0, set[Form]()
+    place, left = 0, Counter[Form]()
     while True:
         for k, change in enumerate(changes(model)):
-            if k < place or change.key in failed or _form(change.model) in left:
+            if k < place or change.key in failed or left[_form(change.model)] == TWICE:
                 continue
             better = tried(points, model, change, together)
             if better is not None:
-                left.add(_form(model))
+                left[_form(model)] += 1
                 model, place = better, 0 if again else k
                 break
             failed.add(change.key)

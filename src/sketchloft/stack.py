@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -74,6 +74,11 @@ class Stack:
         """Each run with the heights of the breaks below and above it."""
         for run, (low, high) in zip(self.runs, pairwise(self.breaks.tolist()), strict=True):
             yield run, low, high
+
+    def with_walls(self, change: Callable[[Wall], Wall]) -> Stack:
+        """Return the stack with each wall changed."""
+        runs = tuple(replace(run, walls=tuple(change(wall) for wall in run.walls)) for run in self.runs)
+        return replace(self, runs=runs)
 
 
 def section_boundary(wall: Wall, height: float, count: int) -> WallBoundary:

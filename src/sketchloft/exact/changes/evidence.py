@@ -21,9 +21,10 @@ __all__ = ["improved", "merged"]
 
 CHAIN = 3
 """Runs that merging may hide from a free profile in their place."""
-TWICE = 2
 ROUNDS = 2
 """How often all changes are looked through at most."""
+RETURNS = 2
+"""How often a model may be left for another before it is not gone back to."""
 
 Form = tuple[tuple[Join, ...], tuple[tuple[tuple[str, int], ...], ...]]
 Changes = Callable[[ExactModel], Iterator[Change]]
@@ -119,7 +120,7 @@ def _through(
     place, left = 0, Counter[Form]()
     while True:
         for k, change in enumerate(changes(model)):
-            if k < place or change.key in failed or left[_form(change.model)] == TWICE:
+            if k < place or change.key in failed or left[_form(change.model)] == RETURNS:
                 continue
             better = tried(points, model, change, together)
             if better is not None:

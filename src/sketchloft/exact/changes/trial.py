@@ -118,7 +118,7 @@ def tried(points: Floats, model: ExactModel, change: Change, together: float) ->
     if change.free:
         return tried_free(points, model, change, together)[0]
     candidate, runs = change.model, change.runs
-    near = _beside_either(points[_at_heights(points, candidate, runs)], model, candidate)
+    near = _deciding(points, model, change)
     if not len(near):
         return None
     count = len(points)
@@ -149,7 +149,7 @@ def fitted(points: Floats, model: ExactModel, change: Change, together: float) -
     together : float
         How many of the points go together.
     """
-    near = _beside_either(points[_at_heights(points, change.model, change.runs)], model, change.model)
+    near = _deciding(points, model, change)
     wide = _with_neighbours(change.model, change.runs)
     candidate, _, _ = climb(near, change.model, SETTLED, runs=wide, enough=ENOUGH * together)
     return fit_density(points, natural_joins(candidate), 1)
@@ -204,6 +204,11 @@ def _with_neighbours(model: ExactModel, runs: range) -> range:
 
 def _beside(points: Floats, model: ExactModel) -> Floats:
     return points[beside_walls(points, model, BESIDE * model.sigma)]
+
+
+def _deciding(points: Floats, model: ExactModel, change: Change) -> Floats:
+    """Points at the heights of a change beside the walls before it or after it."""
+    return _beside_either(points[_at_heights(points, change.model, change.runs)], model, change.model)
 
 
 def _beside_either(points: Floats, model: ExactModel, candidate: ExactModel) -> Floats:

@@ -14,7 +14,7 @@ from sketchloft.exact.fit.likelihood import beside_walls
 from sketchloft.exact.fit.tilt import onto_z
 from sketchloft.exact.model.exact_model import ExactModel, tied
 from sketchloft.exact.model.joins import natural_joins
-from sketchloft.stack import Run, Stack, Wall
+from sketchloft.stack import Wall
 from sketchloft.wall.profile import ArcProfile
 from sketchloft.wall.revolved import Revolved
 from sketchloft.wall.swept import Swept
@@ -40,7 +40,8 @@ def coaxial(
     (3, 3) float array
         The rotation: new points = old points @ rotation.
     """
-    model = _as_cylinders(model)
+    # Circles that go straight up are cylinders; their parameters are the same.
+    model = replace(model, stack=model.stack.with_walls(_as_cylinder))
     places = [
         (j, i)
         for j, run in enumerate(model.stack.runs)
@@ -51,7 +52,8 @@ def coaxial(
     if len(places) < 2:
         return still
     turn = _through_centres(model, places) if tilt else np.eye(3)
-    turned, straight = points @ turn, _with_spheres_turned(model, turn)
+    turned = points @ turn
+    straight = replace(model, stack=model.stack.with_walls(lambda wall: _sphere_turned(wall, turn)))
     pairs = [((*places[0], k), (*place, k)) for place in places[1:] for k in (0, 1)] + _tangents(model)
     near = turned[beside_walls(turned, straight, BESIDE * model.sigma)]
     rings = _rings(model)
@@ -63,25 +65,12 @@ def coaxial(
     return (change, turned, turn @ rotation) if pays else still
 
 
-def _as_cylinders(model: ExactModel) -> ExactModel:
-    """The model with cylinders for circles that go straight up; their parameters are the same."""
-    runs = tuple(Run(tuple(_as_cylinder(wall) for wall in run.walls), run.holes) for run in model.stack.runs)
-    return replace(model, stack=Stack(model.stack.breaks, runs))
-
-
 def _as_cylinder(wall: Wall) -> Wall:
     return as_revolved(wall) if isinstance(wall, Swept) and not wall.free else wall
 
 
-def _with_spheres_turned(model: ExactModel, turn: Floats) -> ExactModel:
-    """The model with the centres of spheres where they are after a turn of the points."""
-    runs = tuple(
-        Run(tuple(_sphere_turned(wall, turn) for wall in run.walls), run.holes) for run in model.stack.runs
-    )
-    return replace(model, stack=Stack(model.stack.breaks, runs))
-
-
 def _sphere_turned(wall: Wall, turn: Floats) -> Wall:
+    """A sphere with its centre where it is after a turn of the points; any other wall as it is."""
     if not isinstance(wall, Revolved) or wall.kind != "sphere" or not isinstance(wall.profile, ArcProfile):
         return wall
     x, y, height = (np.array([*wall.centre, wall.profile.height]) @ turn).tolist()

@@ -95,11 +95,11 @@ def stray_strokes(points: Floats, model: ExactModel, together: float) -> Strays:
     kept, left, odds = np.ones(len(points), dtype=bool), model, 0.0
     while together > 1 and sound(left) and (~kept).mean() < MOST:
         inner = np.flatnonzero(kept)
-        tried = [
-            _without(points[inner], left, row, together) for row in _suspects(points[inner], left, together)
-        ]
-        gain, model, row = max(tried, key=lambda trial: trial[0], default=(0.0, left, inner))
-        if gain <= ODDS:
+        some = points[inner]
+        tried = [_without(some, left, row, together) for row in _suspects(some, left, together)]
+        least = worth(some, fit_density(some, left, 1), together, len(some)) + ODDS
+        value, model, row = max(tried, key=lambda trial: trial[0], default=(-np.inf, left, inner))
+        if value <= least:
             break
         kept[inner[row]], left, odds = False, model, odds + ODDS
     away = points[~kept]
@@ -107,15 +107,13 @@ def stray_strokes(points: Floats, model: ExactModel, together: float) -> Strays:
 
 
 def _without(points: Floats, model: ExactModel, row: Ints, together: float) -> tuple[float, ExactModel, Ints]:
-    """What the model without some of the points gains, those being as well off as any inside; and it."""
+    """What the model without some of the points is worth, those being as well off as any inside; and it."""
     others = np.delete(points, row, axis=0)
-    before = fit_density(points, model, 1)
     near = others[beside_walls(others, model, NEAR * model.sigma)]
     after, _, _ = climb(near, fit_density(others, model, 1), STEPS)
     after = fit_density(others, after, 1)
     gone = float(np.log(after.density.at(points[row])).sum()) / together
-    gain = worth(others, after, together, len(points)) + gone - worth(points, before, together, len(points))
-    return gain, after, row
+    return worth(others, after, together, len(points)) + gone, after, row
 
 
 def _suspects(points: Floats, model: ExactModel, together: float) -> list[Ints]:
@@ -149,7 +147,6 @@ def _in_a_row(links: csr_array) -> bool:
     from scipy.sparse.csgraph import dijkstra, minimum_spanning_tree  # noqa: PLC0415
 
     tree = csr_array(minimum_spanning_tree(links))
-    end = np.argmax(
-        dijkstra(tree, directed=False, indices=np.array([0]))
-    )  # of the longest way, as in any tree
+    # The place farthest from any is an end of the longest way, as in every tree.
+    end = np.argmax(dijkstra(tree, directed=False, indices=np.array([0])))
     return bool(dijkstra(tree, directed=False, indices=np.array([end])).max() >= ROW * tree.sum())

@@ -15,7 +15,7 @@ from sketchloft.exact.fit.tilt import onto_z
 from sketchloft.exact.model.exact_model import ExactModel, model_of
 from sketchloft.exact.model.joins import natural_joins
 from sketchloft.outline.circle import Circle
-from sketchloft.stack import Run, Stack, Wall
+from sketchloft.stack import Wall
 from sketchloft.wall.swept import Swept
 
 __all__ = ["upright"]
@@ -48,8 +48,8 @@ def upright(points: Floats, model: ExactModel, together: float) -> tuple[ExactMo
         return model, np.eye(3)
     turn = onto_z(mean)
     turned = points @ turn
-    runs = tuple(Run(tuple(_straight(wall) for wall in run.walls), run.holes) for run in model.stack.runs)
-    straight = model_of(Stack(model.stack.breaks, runs), model.sigma, model.density, model.stray, model.space)
+    stack = model.stack.with_walls(_straight)
+    straight = model_of(stack, model.sigma, model.density, model.stray, model.space)
     near = turned[beside_walls(turned, straight, BESIDE * model.sigma)]
     straight, _, rotation = climb(near, natural_joins(straight), 12, tilt=True)
     straight = natural_joins(straight)

@@ -39,10 +39,9 @@ def attempt_corners(attempt: Attempt, tried: Tried, ring: Floats, blur: float) -
     polygon = next((outline for outline in cut if isinstance(outline, Polygon)), None)
     for outline in (*cut, *polygons(ring, polygon, blur)):
         attempt(outline)
+    # Where points are few, they tell the angle better than the contour.
     for outline in [found for _, found in tried if isinstance(found, Ellipse)]:
-        attempt(
-            rectangle_like(outline)
-        )  # what the points say of its angle, where they are few, not the contour
+        attempt(rectangle_like(outline))
     star = star_in(ring)
     if star is not None:
         attempt(star)

@@ -23,8 +23,6 @@ GAP = 25.0
 """Points that a hole lacks, and that a piece holds, at least: fewer come by chance."""
 PIECE = 0.03
 """Share of the section's area that a piece of it covers at least."""
-ONE = 1 - 1e-9
-"""The same where there are points for one piece only: what lies beside it may be a stray stroke."""
 
 
 @dataclass(frozen=True)
@@ -128,7 +126,8 @@ def contours(points: Floats, together: float = 1.0) -> tuple[list[Floats], list[
     if not len(areas):
         return [], [], grid.blur
     outer_sign = np.sign(areas[np.argmax(np.abs(areas))])
-    least = float(np.abs(areas).max()) * min(max(PIECE, GAP * together / len(points)), ONE)
+    # Where there are points for one piece only, what lies beside it may be a stray stroke.
+    least = float(np.abs(areas).max()) * min(max(PIECE, GAP * together / len(points)), 1.0)
     order = np.argsort(-np.abs(areas))
     outer, holes = [], []
     for i in order:

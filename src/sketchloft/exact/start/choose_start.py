@@ -73,7 +73,7 @@ def started(
     if best.settling[2, 2] < np.cos(TURNED) and not best.plain:
         starts.append(start_along(points, best.direction, best.candidates, params))
         best = max(starts, key=_value)
-    balls = [through_sphere(start) for start in sorted(starts, key=_value, reverse=True) if candidates]
+    balls = (through_sphere(start) for start in sorted(starts, key=_value, reverse=True) if candidates)
     through = next((direction for direction in balls if direction is not None), None)
     if through is not None and all(abs(float(through @ start.direction)) < BESIDE for start in starts):
         starts.append(start_along(points, through, best.candidates, params))

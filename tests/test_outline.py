@@ -211,8 +211,8 @@ def test_bulges_next_to_nothing_are_as_good_as_lines() -> None:
     straight = chain_foot(points, ELL, np.zeros(6))
     for bulge in (1e-14, -1e-9):
         bent = chain_foot(points, ELL, np.full(6, bulge))
-        np.testing.assert_allclose(bent[0], straight[0], atol=1e-8)
-        np.testing.assert_allclose(bent[2], straight[2], atol=1e-7)
+        np.testing.assert_allclose(bent.distance, straight.distance, atol=1e-8)
+        np.testing.assert_allclose(bent.gradient, straight.gradient, atol=1e-7)
     for low, high in ((0.02999, 0.03001), (-0.03001, -0.02999)):  # where the area goes over to its series
         areas = [chain_area(ELL, np.full(6, bulge)) for bulge in (low, high)]
         assert areas[1] - areas[0] == pytest.approx(2e-5 * 12 / 3, rel=1e-2)
@@ -246,11 +246,11 @@ def test_inside_and_outside_of_any_chain(corners: list[tuple[float, float]], see
     if not LinearRing(ring).is_simple:
         return
     points = around(100, seed)
-    distance, normal, _, _ = chain_foot(points, vertices, bulges)
+    foot = chain_foot(points, vertices, bulges)
     expected = -ring_depth(points, ring)
-    assert np.abs(distance - expected).max() < 5e-3
-    feet = points - distance[:, None] * normal
-    assert np.abs(chain_foot(feet, vertices, bulges)[0]).max() < 1e-9
+    assert np.abs(foot.distance - expected).max() < 5e-3
+    feet = points - foot.distance[:, None] * foot.normal
+    assert np.abs(chain_foot(feet, vertices, bulges).distance).max() < 1e-9
 
 
 def test_a_star_is_found_from_its_corners_and_an_l_is_none() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from sketchloft.cloud import Floats
+from sketchloft.gauss import gauss
 from sketchloft.stack import Stack, Wall
 from sketchloft.wall.filleted import Filleted
 from sketchloft.wall.lofted import Lofted
@@ -75,6 +76,6 @@ def _ends(inner: Floats, low: float, high: float) -> Floats:
 
 
 def _gauss(ends: Floats, points: int = POINTS) -> tuple[Floats, Floats]:
-    x, w = np.polynomial.legendre.leggauss(points)
+    x, w = gauss(points)
     half = np.diff(ends)[:, None] / 2
     return (ends[:-1, None] + half * (1 + x)).ravel(), (half * w).ravel()

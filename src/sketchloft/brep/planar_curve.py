@@ -12,6 +12,7 @@ from OCP.TopoDS import TopoDS_Edge
 
 from sketchloft.cloud import Floats
 from sketchloft.errors import ModelError
+from sketchloft.gauss import gauss
 from sketchloft.surface import basis_matrix
 
 __all__ = ["PlanarCurve", "curve_of"]
@@ -94,7 +95,7 @@ class PlanarCurve:
         return float(weights @ (arms[:, 0] * steps[:, 1] - arms[:, 1] * steps[:, 0])) / 2
 
 
-GAUSS = np.polynomial.legendre.leggauss(16)
+GAUSS = gauss(16)
 
 
 def curve_of(edge: TopoDS_Edge) -> PlanarCurve:

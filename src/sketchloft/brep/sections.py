@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import functools
-
 import numpy as np
 from numpy.typing import NDArray
 
 from sketchloft.cloud import Floats
 from sketchloft.errors import ModelError
+from sketchloft.gauss import gauss
 from sketchloft.surface import SkinSurface, distinct_knots, evaluate
 
 __all__ = ["check_sections", "gauss_points", "section_axis", "section_volume", "subdivided"]
@@ -19,15 +18,10 @@ PARALLEL = 1e-7
 
 def gauss_points(knots: Floats, count: int) -> tuple[Floats, Floats]:
     """Gauss-Legendre points and weights on every span of a knot vector, exact to degree 2 count - 1."""
-    nodes, weights = _legendre(count)
+    nodes, weights = gauss(count)
     ends = distinct_knots(knots)
     half = np.diff(ends)[:, None] / 2
     return (ends[:-1, None] + half * (1 + nodes)).ravel(), (half * weights).ravel()
-
-
-@functools.cache
-def _legendre(count: int) -> tuple[Floats, Floats]:
-    return np.polynomial.legendre.leggauss(count)
 
 
 def section_axis(surface: SkinSurface) -> Floats:

@@ -13,6 +13,7 @@ import functools
 import numpy as np
 
 from sketchloft.cloud import Floats
+from sketchloft.gauss import gauss
 from sketchloft.outline.outline import Arc, Boundary, Edge, Segment
 from sketchloft.ring import ring_area
 
@@ -99,7 +100,7 @@ def _gauss(count: int) -> tuple[Floats, Floats]:
     if count == 0:
         return np.zeros(0), np.zeros(0)
     panels = -(-count // PANEL)
-    nodes, weights = np.polynomial.legendre.leggauss(-(-count // panels))
+    nodes, weights = gauss(-(-count // panels))
     middles = (2 * np.arange(panels) + 1) / panels - 1
     return (middles[:, None] + nodes / panels).ravel(), np.tile(weights / 2 / panels, panels)
 

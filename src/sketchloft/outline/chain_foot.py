@@ -7,12 +7,13 @@ from numpy.typing import NDArray
 
 from sketchloft.cloud import Floats, Ints
 from sketchloft.outline.chain import edge_normal, edge_place
-from sketchloft.outline.chain_nearest import Edges, edge_frames, nearest
+from sketchloft.outline.chain_nearest import Edges, Nearest, edge_frames, nearest
+from sketchloft.outline.outline import Foot
 
 __all__ = ["chain_foot"]
 
 
-def chain_foot(points: Floats, vertices: Floats, bulges: Floats) -> tuple[Floats, Floats, Floats, Floats]:
+def chain_foot(points: Floats, vertices: Floats, bulges: Floats) -> Foot:
     """What points see of a chain.
 
     Parameters
@@ -25,14 +26,8 @@ def chain_foot(points: Floats, vertices: Floats, bulges: Floats) -> tuple[Floats
 
     Returns
     -------
-    distance : (n,) float array
-        Signed, positive outside.
-    normal : (n, 2) float array
-        Unit gradient of the distance.
-    gradient : (n, 3m) float array
-        Derivative of the distance by [vertices ravelled, bulges].
-    curvature : (n,) float array
-        Of the edge at the foot, positive where it bulges outwards.
+    Foot
+        The gradient (n, 3m) by [vertices ravelled, bulges].
 
     Notes
     -----
@@ -45,8 +40,17 @@ def chain_foot(points: Floats, vertices: Floats, bulges: Floats) -> tuple[Floats
     local = points - origin
     near = nearest(local, edges)
     distance, normal, curvature, tau = _edge_foot(local, edges, near.edge)
-    m = len(vertices)
-    gradient = np.zeros((len(points), 3 * m))
+    rows = np.flatnonzero(~near.on_edge)
+    if len(rows):
+        distance[rows], normal[rows] = _vertex_foot(local[rows], edges, near.vertex[rows])
+        curvature[rows] = 0.0
+    return Foot(distance, normal, lambda: _gradient(edges, near, normal, tau), curvature)
+
+
+def _gradient(edges: Edges, near: Nearest, normal: Floats, tau: Floats) -> Floats:
+    """Derivative (n, 3m) of the distance by the vertices and the bulges."""
+    m = len(edges.bulge)
+    gradient = np.zeros((len(tau), 3 * m))
     rows = np.flatnonzero(near.on_edge)
     edge = near.edge[rows]
     by_start, by_end, by_bulge = _edge_gradient(edges, edge, normal[rows], tau[rows])
@@ -54,12 +58,8 @@ def chain_foot(points: Floats, vertices: Floats, bulges: Floats) -> tuple[Floats
     _put(gradient, rows, (edge + 1) % m, by_end)
     gradient[rows, 2 * m + edge] = by_bulge
     rows = np.flatnonzero(~near.on_edge)
-    if len(rows):
-        vertex = near.vertex[rows]
-        distance[rows], normal[rows] = _vertex_foot(local[rows], edges, vertex)
-        curvature[rows] = 0.0
-        _put(gradient, rows, vertex, -normal[rows])
-    return distance, normal, gradient, curvature
+    _put(gradient, rows, near.vertex[rows], -normal[rows])
+    return gradient
 
 
 def _put(gradient: Floats, rows: Ints, vertex: Ints, values: Floats) -> None:

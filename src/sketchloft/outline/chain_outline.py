@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from dataclasses import replace
 from typing import Self
 
 from sketchloft.cloud import Floats
@@ -40,8 +41,8 @@ class ChainOutline(ABC):
 
     def foot(self, points: Floats) -> Foot:
         """Signed distance of points (n, 2), and its derivatives."""
-        distance, normal, gradient, curvature = chain_foot(points, *self.chain())
-        return Foot(distance, normal, self.by_vector(gradient), curvature)
+        seen = chain_foot(points, *self.chain())
+        return replace(seen, slopes=lambda: self.by_vector(seen.gradient))
 
     def boundary(self, count: int) -> Boundary:
         """About `count` points along it, to integrate with, 2 or more on each edge."""

@@ -50,8 +50,11 @@ class Circle:
         at_centre = far == 0
         scale = np.where(at_centre, 1.0, far)
         normal = np.column_stack([np.where(at_centre, 1.0, x / scale), y / scale])
-        gradient = np.column_stack([-normal, np.full(len(far), -1.0)])
-        return Foot(far - self.radius, normal, gradient, np.full(len(far), 1 / self.radius))
+
+        def slopes() -> Floats:
+            return np.column_stack([-normal, np.full(len(far), -1.0)])
+
+        return Foot(far - self.radius, normal, slopes, np.full(len(far), 1 / self.radius))
 
     def boundary(self, count: int) -> Boundary:
         """`count` points along it, evenly spaced."""

@@ -62,8 +62,11 @@ class Ellipse:
         nx, ny = b * cos / steep, a * sin / steep
         at_x, at_y = a * cos, b * sin
         normal = np.column_stack([nx, ny]) @ turn.T
-        gradient = np.column_stack([-normal, -nx * cos, -ny * sin, nx * at_y - ny * at_x])
-        return Foot((x - at_x) * nx + (y - at_y) * ny, normal, gradient, a * b / steep**3)
+
+        def slopes() -> Floats:
+            return np.column_stack([-normal, -nx * cos, -ny * sin, nx * at_y - ny * at_x])
+
+        return Foot((x - at_x) * nx + (y - at_y) * ny, normal, slopes, a * b / steep**3)
 
     def boundary(self, count: int) -> Boundary:
         """`count` points along it, evenly spaced in the eccentric angle."""

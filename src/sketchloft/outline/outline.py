@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Protocol, Self
 
 from sketchloft.cloud import Floats
@@ -20,16 +22,21 @@ class Foot:
         Signed distance, positive outside.
     normal : (n, 2) float array
         Unit gradient of the distance.
-    gradient : (n, p) float array
-        Derivative of the distance by the outline's parameters.
+    slopes : callable
+        Finds the gradient, which many who ask for the distance have no use for.
     curvature : (n,) float array
         Of the outline at the foot, positive where it is convex; 0 on lines and at corners.
     """
 
     distance: Floats
     normal: Floats
-    gradient: Floats
+    slopes: Callable[[], Floats]
     curvature: Floats
+
+    @cached_property
+    def gradient(self) -> Floats:
+        """Derivative (n, p) of the distance by the outline's parameters."""
+        return self.slopes()
 
 
 @dataclass(frozen=True)

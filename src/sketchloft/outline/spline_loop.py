@@ -8,6 +8,7 @@ from typing import ClassVar, Self
 import numpy as np
 
 from sketchloft.cloud import Floats
+from sketchloft.gauss import gauss
 from sketchloft.outline.chain import outward
 from sketchloft.outline.outline import Boundary, Closed, Edge, Foot
 from sketchloft.periodic_cubic import basis_at, curve_at, locate, pieces
@@ -67,13 +68,16 @@ class SplineLoop:
         # At the foot the gap is along the normal; elsewhere, next to the medial axis, nearly.
         gap = target - at
         distance = np.copysign(np.hypot(*gap), gap[0] * across[0] + gap[1] * across[1])
-        columns, values = basis_at(span, t, count)
-        lean = self.normals @ across
-        gradient = np.zeros((len(points), count))
-        np.put_along_axis(gradient, columns, -values, axis=1)
-        gradient *= lean.T
         curvature = (d1[0] * d2[1] - d1[1] * d2[0]) / speed**3
-        return Foot(distance, np.ascontiguousarray(across.T), gradient, curvature)
+
+        def slopes() -> Floats:
+            columns, values = basis_at(span, t, count)
+            gradient = np.zeros((len(points), count))
+            np.put_along_axis(gradient, columns, -values, axis=1)
+            gradient *= (self.normals @ across).T
+            return gradient
+
+        return Foot(distance, np.ascontiguousarray(across.T), slopes, curvature)
 
     def _nearest(self, points: Floats) -> Floats:
         """Parameter (n,) of the sample nearest to each point."""
@@ -103,7 +107,7 @@ class SplineLoop:
     def _quadrature(self, per_span: int) -> tuple[Floats, Floats, Floats]:
         """Points, derivatives by the place within the span, and weights, of Gauss' rule on each span."""
         count = len(self.poles)
-        nodes, weights = np.polynomial.legendre.leggauss(per_span)
+        nodes, weights = gauss(per_span)
         span = np.repeat(np.arange(count), per_span)
         at, along, _ = curve_at(pieces(self.poles), span, np.tile((nodes + 1) / 2, count))
         return at.T, along.T, np.tile(weights / 2, count)

@@ -9,6 +9,7 @@ from typing import ClassVar, Literal, Self, get_args
 import numpy as np
 
 from sketchloft.cloud import Floats
+from sketchloft.gauss import gauss
 from sketchloft.outline.inset import Insettable, inset
 from sketchloft.outline.placed_polygons import RoundedRectangle
 from sketchloft.wall.foot import WallBoundary, WallFoot
@@ -17,7 +18,7 @@ __all__ = ["ENDS", "Ends", "Filleted"]
 
 Ends = Literal["both", "bottom", "top"]
 ENDS: tuple[Ends, ...] = get_args(Ends)
-GAUSS = np.polynomial.legendre.leggauss(6)
+GAUSS = gauss(6)
 TINY = 1e-12
 
 
@@ -108,16 +109,19 @@ class Filleted:
         by_rise = np.where(beside, rise / far, np.where(over, 1.0, 0.0))
         distance = np.where(beside, far - self.radius, np.where(over, seen.distance + rise, seen.distance))
         by_radius = np.where(beside, by_across + by_rise - 1, np.where(over, 1.0, 0.0))
-        gradient = by_across[:, None] * seen.gradient
-        if self.fillet is None:
+
+        def slopes() -> Floats:
+            gradient = by_across[:, None] * seen.gradient
+            if self.fillet is not None:
+                return np.column_stack([gradient, by_radius])
             gradient[:, -1] += by_radius
-        else:
-            gradient = np.column_stack([gradient, by_radius])
+            return gradient
+
         up = way * by_rise
         bend = by_across * seen.curvature + np.where(beside, 1 / far, 0.0)
         normal = np.column_stack([by_across[:, None] * seen.normal, up])
         by_ends = np.column_stack([np.where(way < 0, -up, 0.0), np.where(way > 0, -up, 0.0)])
-        return WallFoot(distance, normal, gradient, bend, by_ends)
+        return WallFoot(distance, normal, slopes, bend, by_ends)
 
     def boundary(self, low: float, high: float, count: int) -> WallBoundary:
         """About `count` points on the wall between two heights."""
@@ -138,7 +142,7 @@ class Filleted:
 
     def spans(self, low: float, high: float) -> Iterator[tuple[Floats, Floats]]:
         """Heights and weights to integrate sections with between two heights, in pieces that are smooth."""
-        x, w = np.polynomial.legendre.leggauss(16)
+        x, w = gauss(16)
         for start, end, way in self._zones(low, high):
             at, weight = (start + end) / 2 + (end - start) / 2 * x, (end - start) / 2 * w
             if not way:

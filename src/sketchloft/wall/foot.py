@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -21,8 +23,8 @@ class WallFoot:
         Positive outside of what the wall encloses.
     normal : (n, 3) float array
         Unit gradient of the distance.
-    gradient : (n, p) float array
-        Derivative of the distance by the wall's parameters.
+    slopes : callable
+        Finds the gradient, which many who ask for the distance have no use for.
     curvature : (n,) float array
         Sum of the principal curvatures, positive where the wall is convex.
     by_ends : (n, 2) float array, optional
@@ -31,9 +33,14 @@ class WallFoot:
 
     distance: Floats
     normal: Floats
-    gradient: Floats
+    slopes: Callable[[], Floats]
     curvature: Floats
     by_ends: Floats | None = None
+
+    @cached_property
+    def gradient(self) -> Floats:
+        """Derivative (n, p) of the distance by the wall's parameters."""
+        return self.slopes()
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ from typing import ClassVar, Self
 import numpy as np
 
 from sketchloft.cloud import Floats, Ints
+from sketchloft.gauss import gauss
 from sketchloft.periodic_cubic import basis_at, locate, pieces
 from sketchloft.surface import basis_matrix, even_knots, local_basis
 from sketchloft.wall.foot import WallBoundary, WallFoot
@@ -109,12 +110,15 @@ class Lofted:
         steep = _curve(cells, rows, local_basis(self.knots, self.degree, z, 1)[1], u)[0]
         slope = -np.einsum("ij,ij->i", across, steep)
         c = 1 / np.hypot(1.0, slope)
-        gradient = self._gradient(z, u, across) * -c[:, None]
         bend = (d1[:, 0] * d2[:, 1] - d1[:, 1] * d2[:, 0]) / speed**3
         normal = np.column_stack([across, slope]) * c[:, None]
         share = (z - self.knots[0]) / (self.knots[-1] - self.knots[0])
         by_ends = -normal[:, 2:] * np.column_stack([1 - share, share])
-        return WallFoot(c * side * flat, normal, gradient, c * bend, by_ends)
+
+        def slopes() -> Floats:
+            return self._gradient(z, u, across) * -c[:, None]
+
+        return WallFoot(c * side * flat, normal, slopes, c * bend, by_ends)
 
     def _gradient(self, z: Floats, u: Floats, across: Floats) -> Floats:
         """Movement (n, p) of the wall across itself by each pole's displacement; 16 poles matter."""
@@ -146,7 +150,7 @@ class Lofted:
     def boundary(self, low: float, high: float, count: int) -> WallBoundary:
         """About `count` points on the wall between two heights."""
         inner = np.unique(np.clip(self.knots, low, high))
-        x, w = np.polynomial.legendre.leggauss(4)
+        x, w = gauss(4)
         z = ((inner[:-1, None] + inner[1:, None]) / 2 + np.diff(inner)[:, None] / 2 * x).ravel()
         weights = (np.diff(inner)[:, None] / 2 * w).ravel()
         around = max(4 * self.poles.shape[1], count // len(z))

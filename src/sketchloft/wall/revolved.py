@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Self
 
 import numpy as np
 
 from sketchloft.cloud import Floats
+from sketchloft.gauss import gauss
 from sketchloft.surface import basis_matrix
 from sketchloft.wall.foot import WallBoundary, WallFoot
 from sketchloft.wall.profile import ArcProfile, LineProfile, Profile, SplineProfile
 
 __all__ = ["Revolved", "radius_at", "sizes"]
 
-GAUSS = np.polynomial.legendre.leggauss(8)
-SPAN_GAUSS = np.polynomial.legendre.leggauss(4)
+GAUSS = gauss(8)
+SPAN_GAUSS = gauss(4)
 TINY = 1e-12
 
 
@@ -66,9 +68,9 @@ class Revolved:
         spoke = points[:, :2] - self.centre
         r = np.maximum(np.hypot(spoke[:, 0], spoke[:, 1]), 1e-12)
         e = spoke / r[:, None]
-        distance, n_r, n_z, gradient, bend = _profile_foot(self.profile, r, points[:, 2])
+        distance, n_r, n_z, slopes, bend = _profile_foot(self.profile, r, points[:, 2])
         normal = np.column_stack([e * n_r[:, None], n_z])
-        return WallFoot(distance, normal, np.column_stack([-normal[:, :2], gradient]), bend + n_r / r)
+        return WallFoot(distance, normal, lambda: np.column_stack([-normal[:, :2], slopes()]), bend + n_r / r)
 
     def boundary(self, low: float, high: float, count: int) -> WallBoundary:
         """About `count` points on the wall between two heights."""
@@ -155,7 +157,9 @@ def _profile_moved(profile: Profile, vector: Floats) -> Profile:
             return replace(profile, radii=vector.copy())
 
 
-def _profile_foot(profile: Profile, r: Floats, z: Floats) -> tuple[Floats, Floats, Floats, Floats, Floats]:
+def _profile_foot(
+    profile: Profile, r: Floats, z: Floats
+) -> tuple[Floats, Floats, Floats, Callable[[], Floats], Floats]:
     """Signed distance in the half plane, its gradient by r, by z and by the parameters, and the bend."""
     match profile:
         case LineProfile(height, radius, slope):
@@ -163,18 +167,27 @@ def _profile_foot(profile: Profile, r: Floats, z: Floats) -> tuple[Floats, Float
             c = 1 / np.hypot(1.0, g)
             s = c * (r - radius - g * (z - height))
             one = np.ones(len(r))
-            columns = [-c * one] if slope is None else [-c * one, -c * (z - height) - s * g * c**2]
-            return s, c * one, -g * c * one, np.column_stack(columns), 0 * one
+
+            def by_line() -> Floats:
+                return np.column_stack(
+                    [-c * one] if slope is None else [-c * one, -c * (z - height) - s * g * c**2]
+                )
+
+            return s, c * one, -g * c * one, by_line, 0 * one
         case ArcProfile(height, offset, radius, side):
             w_r, w_z = r - (offset or 0.0), z - height
             if offset is not None:  # on the far side of the arc's own axis the arc is not the wall
                 w_r = side * np.maximum(side * w_r, 1e-12)
             length = np.maximum(np.hypot(w_r, w_z), 1e-12)
             n_r, n_z = side * w_r / length, side * w_z / length
-            columns = [-n_z, np.full(len(r), -float(side))] + ([] if offset is None else [-n_r])
-            return side * (length - radius), n_r, n_z, np.column_stack(columns), side / length
+
+            def by_arc() -> Floats:
+                columns = [-n_z, np.full(len(r), -float(side))] + ([] if offset is None else [-n_r])
+                return np.column_stack(columns)
+
+            return side * (length - radius), n_r, n_z, by_arc, side / length
         case SplineProfile(knots, radii):
             basis = basis_matrix(knots, SplineProfile.degree, z)
             rise: Floats = basis_matrix(knots, SplineProfile.degree, z, 1) @ radii
             c = 1 / np.hypot(1.0, rise)
-            return c * (r - basis @ radii), c, -rise * c, -c[:, None] * basis, np.zeros(len(r))
+            return c * (r - basis @ radii), c, -rise * c, lambda: -c[:, None] * basis, np.zeros(len(r))

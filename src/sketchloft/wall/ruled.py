@@ -8,6 +8,7 @@ from typing import ClassVar, Self
 import numpy as np
 
 from sketchloft.cloud import Floats, Ints
+from sketchloft.gauss import gauss
 from sketchloft.outline.chain import outward
 from sketchloft.outline.chain_outline import ChainOutline
 from sketchloft.outline.chain_places import chain_movement, chain_place
@@ -19,7 +20,7 @@ SAMPLES = np.linspace(-0.9, 0.9, 8)
 """Parameters of an edge from which the foot of a point is searched."""
 NEWTON = 4
 BLOCK = 4096
-LEVELS = np.polynomial.legendre.leggauss(4)
+LEVELS = gauss(4)
 """Heights of an integration over the wall; the area of a section is a parabola."""
 FEWEST = 6
 """Points along an edge to integrate with."""
@@ -78,7 +79,7 @@ class Ruled:
         """Area of the sections at heights (m,)."""
         # Of two outlines and of the section half-way the areas give the parabola.
         middle = (self.low + self.high) / 2
-        nodes, weights = np.polynomial.legendre.leggauss(16)
+        nodes, weights = gauss(16)
         at, along = (self.ring(np.array([middle]), nodes, order) for order in (0, 1))
         half = float(((at[..., 0] * along[..., 1] - at[..., 1] * along[..., 0]) @ weights).sum()) / 2
         t = self.share(heights)
@@ -120,16 +121,17 @@ class Ruled:
         rise = (chain_place(above, edge, tau, 0) - chain_place(below, edge, tau, 0)) / (self.high - self.low)
         slope = -np.einsum("ij,ij->i", across, rise)
         c = 1 / np.hypot(1.0, slope)
-        gradient = np.concatenate(
-            [
-                end.by_vector((-c * part)[:, None] * chain_movement(end.chain(), edge, tau, across))
-                for end, part in ((self.bottom, 1 - t), (self.top, t))
-            ],
-            axis=1,
-        )
         normal = np.column_stack([across, slope]) * c[:, None]
         by_ends = -normal[:, 2:] * np.column_stack([1 - t, t])
-        return WallFoot(c * sign * flat, normal, gradient, c * bend, by_ends)
+
+        def slopes() -> Floats:
+            by_end = [
+                end.by_vector((-c * part)[:, None] * chain_movement(end.chain(), edge, tau, across))
+                for end, part in ((self.bottom, 1 - t), (self.top, t))
+            ]
+            return np.concatenate(by_end, axis=1)
+
+        return WallFoot(c * sign * flat, normal, slopes, c * bend, by_ends)
 
     def _ends(self) -> tuple[tuple[Floats, Floats], tuple[Floats, Floats]]:
         return self.bottom.chain(), self.top.chain()
@@ -168,7 +170,7 @@ class Ruled:
         x, w = LEVELS
         z, weights = (low + high) / 2 + (high - low) / 2 * x, w * (high - low) / 2
         edges = len(self.bottom.chain()[1])
-        tau, share = np.polynomial.legendre.leggauss(max(FEWEST, count // (edges * len(z))))
+        tau, share = gauss(max(FEWEST, count // (edges * len(z))))
         at, d1 = (self.ring(z, tau, order).reshape(len(z), -1, 2) for order in (0, 1))
         rise = (self.ring(np.array([self.high]), tau) - self.ring(np.array([self.low]), tau)).reshape(-1, 2)
         speed = np.maximum(np.hypot(d1[..., 0], d1[..., 1]), TINY)

@@ -8,6 +8,7 @@ from typing import Literal, Self, get_args
 import numpy as np
 
 from sketchloft.cloud import Floats
+from sketchloft.gauss import gauss
 from sketchloft.outline.outline import Outline
 from sketchloft.wall.dome import dome_foot
 from sketchloft.wall.foot import WallBoundary, WallFoot
@@ -16,7 +17,7 @@ __all__ = ["FREEDOMS", "Freedom", "Swept"]
 
 Freedom = Literal["drift", "taper", "twist", "bow"]
 FREEDOMS: tuple[Freedom, ...] = get_args(Freedom)
-GAUSS = np.polynomial.legendre.leggauss(6)
+GAUSS = gauss(6)
 LEAST_SQUARE = 1e-4
 """The outline is looked at from no farther than its size at this squared scale."""
 
@@ -131,7 +132,7 @@ class Swept:
         if self.still and not self.free:
             seen = self.outline.foot(points[:, :2])
             normal = np.column_stack([seen.normal, np.zeros(len(points))])
-            return WallFoot(seen.distance, normal, seen.gradient, seen.curvature)
+            return WallFoot(seen.distance, normal, seen.slopes, seen.curvature)
         dz = points[:, 2] - self.height
         scale = np.maximum(1 + self.taper * dz, 1e-6)
         cos, sin = np.cos(self.twist * dz), np.sin(self.twist * dz)
@@ -148,18 +149,20 @@ class Swept:
             - self.twist * scale * along_quarter
         )
         c = 1 / np.hypot(1.0, slope)
-        columns = [(c * scale)[:, None] * seen.gradient]
-        for name in self.free:
-            if name == "drift":
-                columns.append(-(c * dz)[:, None] * across)
-            elif name == "taper":
-                columns.append((c * dz * (seen.distance - along_arm))[:, None])
-            else:
-                columns.append(-(c * scale * dz * along_quarter)[:, None])
+
+        def slopes() -> Floats:
+            columns = [(c * scale)[:, None] * seen.gradient]
+            for name in self.free:
+                if name == "drift":
+                    columns.append(-(c * dz)[:, None] * across)
+                elif name == "taper":
+                    columns.append((c * dz * (seen.distance - along_arm))[:, None])
+                else:
+                    columns.append(-(c * scale * dz * along_quarter)[:, None])
+            return np.concatenate(columns, axis=1)
+
         normal = np.column_stack([across, slope]) * c[:, None]
-        return WallFoot(
-            c * scale * seen.distance, normal, np.concatenate(columns, axis=1), c * seen.curvature / scale
-        )
+        return WallFoot(c * scale * seen.distance, normal, slopes, c * seen.curvature / scale)
 
     def _dome(self, points: Floats) -> WallFoot:
         dz = points[:, 2] - self.height
@@ -169,13 +172,17 @@ class Swept:
         seen = self.outline.foot(self.pivot + arm)
         bend = self.taper**2 - self.bow**2
         found = dome_foot(moved, seen, arm, (square, rise, bend), self.drift)
-        by = {
-            "drift": dz[:, None] * found.by_shift,
-            "taper": (2 * dz * (1 + self.taper * dz) * found.by_square)[:, None],
-            "bow": (-2 * self.bow * dz**2 * found.by_square)[:, None],
-        }
-        columns = [found.by_outline[:, None] * seen.gradient, *(by[name] for name in self.free)]
-        return WallFoot(found.distance, found.normal, np.concatenate(columns, axis=1), found.curvature)
+
+        def slopes() -> Floats:
+            by = {
+                "drift": dz[:, None] * found.by_shift,
+                "taper": (2 * dz * (1 + self.taper * dz) * found.by_square)[:, None],
+                "bow": (-2 * self.bow * dz**2 * found.by_square)[:, None],
+            }
+            columns = [found.by_outline[:, None] * seen.gradient, *(by[name] for name in self.free)]
+            return np.concatenate(columns, axis=1)
+
+        return WallFoot(found.distance, found.normal, slopes, found.curvature)
 
     def carried(self, points: Floats, heights: Floats) -> Floats:
         """Places (m, k, 2) where points (k, 2) of the outline lie at heights (m,)."""

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from sketchloft.cloud import Floats
 from sketchloft.exact.fit.expected import mass_nodes, wall_nodes
-from sketchloft.exact.fit.likelihood import Evaluation, evaluate, share_of
+from sketchloft.exact.fit.likelihood import Derivatives, evaluate, share_of
 from sketchloft.exact.fit.tilt import tilted
 from sketchloft.exact.model.density import Density, regressed
 from sketchloft.exact.model.exact_model import ExactModel
@@ -90,7 +90,7 @@ def climb(
             free[[model.size, -LAST - 1]] = False
         moved = None
         for _ in range(6):
-            step = _step(now, free, damping, model.sigma)
+            step = _step(now.derivatives, free, damping, model.sigma)
             candidate, rotation = _moved(model, step, (least, most))
             turned = points @ rotation
             then = evaluate(turned, candidate, caps=caps)
@@ -120,7 +120,8 @@ def promise(points: Floats, model: ExactModel) -> float:
     if not np.isfinite(now.value):
         return 0.0
     index = np.flatnonzero(_free(model, tilt=False, noise=False, strays=False))
-    information, score = now.information[np.ix_(index, index)], now.score[index]
+    information = now.derivatives.information[np.ix_(index, index)]
+    score = now.derivatives.score[index]
     ridge = 1e-9 * max(float(np.diag(information).max(initial=0.0)), 1e-300) * np.eye(len(index))
     return float(score @ np.linalg.solve(information + ridge, score)) / 2
 
@@ -146,7 +147,7 @@ def _of_runs(model: ExactModel, runs: range) -> Bools:
     return mine
 
 
-def _step(now: Evaluation, free: Bools, damping: float, sigma: float) -> Floats:
+def _step(now: Derivatives, free: Bools, damping: float, sigma: float) -> Floats:
     step = np.zeros(len(now.score))
     index = np.flatnonzero(free)
     information = now.information[np.ix_(index, index)]

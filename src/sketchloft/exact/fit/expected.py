@@ -8,6 +8,7 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.exact.model.exact_model import ExactModel
+from sketchloft.gauss import gauss
 from sketchloft.stack import Run
 from sketchloft.wall.foot import WallBoundary
 
@@ -25,7 +26,7 @@ NODES = 120
 """Points per wall to integrate the density with."""
 THIN = 1e-6
 """Thickness of a section that stands for none."""
-RADIAL = np.polynomial.legendre.leggauss(3)
+RADIAL = gauss(3)
 
 
 @dataclass(frozen=True)

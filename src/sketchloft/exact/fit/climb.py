@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from sketchloft.cloud import Floats
 from sketchloft.exact.fit.expected import mass_nodes, wall_nodes
-from sketchloft.exact.fit.likelihood import Derivatives, evaluate, share_of
+from sketchloft.exact.fit.likelihood import Derivatives, evaluate, rising, share_of
 from sketchloft.exact.fit.tilt import tilted
 from sketchloft.exact.model.density import Density, regressed
 from sketchloft.exact.model.exact_model import ExactModel
@@ -79,7 +79,8 @@ def climb(
     """
     damping, turn = 1e-3, np.eye(3)
     model = joined(model)
-    now = evaluate(points, model, caps=caps)
+    seen = rising(points)
+    now = evaluate(seen, model, caps=caps)
     if not np.isfinite(now.value):
         return model, points, turn
     for _ in range(steps):
@@ -92,7 +93,7 @@ def climb(
         for _ in range(6):
             step = _step(now.derivatives, free, damping, model.sigma)
             candidate, rotation = _moved(model, step, (least, most))
-            turned = points @ rotation
+            turned = seen @ rotation if tilt else seen
             then = evaluate(turned, candidate, caps=caps)
             if then.value > now.value:
                 moved = candidate, turned, rotation, then
@@ -101,11 +102,11 @@ def climb(
         if moved is None:
             break
         gain = moved[3].value - now.value
-        model, points, rotation, now = moved
+        model, seen, rotation, now = moved
         turn, damping = turn @ rotation, damping / 10
         if gain < enough:
             break
-    return model, points, turn
+    return model, points @ turn if tilt else points, turn
 
 
 def promise(points: Floats, model: ExactModel) -> float:

@@ -13,13 +13,22 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from sketchloft.cloud import Floats, Ints
+from sketchloft.cloud import Floats
 from sketchloft.exact.fit.expected import expected_points, expected_slope, wall_nodes
 from sketchloft.exact.fit.inside import share_within, slabs_of, slopes_of
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.soundness import sound
 
-__all__ = ["Derivatives", "Evaluation", "beside_walls", "evaluate", "losses", "share_of", "value_of"]
+__all__ = [
+    "Derivatives",
+    "Evaluation",
+    "beside_walls",
+    "evaluate",
+    "losses",
+    "rising",
+    "share_of",
+    "value_of",
+]
 
 
 @dataclass(frozen=True)
@@ -78,7 +87,7 @@ def evaluate(points: Floats, model: ExactModel, *, caps: bool = True) -> Evaluat
     """
     if not sound(model):
         return Evaluation(-np.inf, _none)
-    points = points[_rising(points)]
+    points = rising(points)
     slabs = slabs_of(points, model, model.sigma, caps=caps)
     rho = model.density.at(points)
     total = rho * share_within(len(points), slabs) + model.stray
@@ -118,14 +127,15 @@ def losses(points: Floats, model: ExactModel) -> Floats:
     return -np.log(inside + model.stray / model.density.at(points))
 
 
-def _rising(points: Floats) -> Ints:
-    """Order (n,) in which the points of a run are all in a row."""
-    return np.argsort(points[:, 2], kind="stable")
+def rising(points: Floats) -> Floats:
+    """Points (n, 3) in the order in which those of a run are all in a row."""
+    z = points[:, 2]
+    return points if (z[1:] >= z[:-1]).all() else points[np.argsort(z, kind="stable")]
 
 
 def _share_inside(points: Floats, model: ExactModel, sigma: float, *, caps: bool = True) -> Floats:
     """Soft indicator (n,) of points in any order."""
-    order = _rising(points)
+    order = np.argsort(points[:, 2], kind="stable")
     inside = np.empty(len(points))
     inside[order] = share_within(len(points), slabs_of(points[order], model, sigma, caps=caps))
     return inside

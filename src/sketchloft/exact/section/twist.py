@@ -78,10 +78,11 @@ def twist_of(plan: PlanView, heights: Floats, together: float = 1.0, most_points
     together = max(together / step, 1.0)
     clear = CLEAR * float(np.sqrt(together))
     best, still, twist = clear, 0.0, 0.0
+    back = np.exp(-1j * turns[:, None] * z)
     for fold in FOLDS:
         power = spokes**fold
         chance = float(np.sqrt((np.abs(power) ** 2).sum()))
-        peaks = np.abs(np.exp(-1j * fold * turns[:, None] * z) @ power) / chance
+        peaks = np.abs(back**fold @ power) / chance
         top = int(np.argmax(peaks))
         if peaks[top] > best:
             best, still, twist = float(peaks[top]), float(peaks[TURNS // 2]), float(turns[top])

@@ -10,6 +10,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from sketchloft.cloud import Floats
+from sketchloft.exact.fit.climb import climb
 from sketchloft.exact.fit.expected import mass_nodes, wall_nodes
 from sketchloft.exact.fit.likelihood import beside_walls, evaluate, share_of, value_of
 from sketchloft.exact.model.density import Density
@@ -207,6 +208,25 @@ def test_walls_that_enclose_nothing_are_not_sound() -> None:
     assert not sound(model.moved(model.vector, BREAKS[::-1]))
     assert not sound(model.moved(model.vector * [1, 1, -1, 0], BREAKS))
     assert not sound(model.moved(model.vector * np.nan, BREAKS))
+
+
+def test_what_is_unsound_explains_nothing_and_has_no_slopes() -> None:
+    points, model = known(one_run("cylinder"))
+    found = evaluate(points, model.moved(model.vector, BREAKS[::-1]))
+    assert found.value == -np.inf
+    with pytest.raises(ValueError, match="not sound"):
+        _ = found.derivatives
+
+
+def test_the_order_of_the_points_is_nothing_to_a_climb() -> None:
+    points, model = known(one_run("cylinder"))
+    for tilt in (False, True):
+        order = np.random.default_rng(0).permutation(len(points))
+        plain, turned, _ = climb(points, model, 3, tilt=tilt)
+        mixed, again, rotation = climb(points[order], model, 3, tilt=tilt)
+        np.testing.assert_allclose(mixed.vector, plain.vector, rtol=0, atol=1e-9)
+        np.testing.assert_allclose(again, turned[order], rtol=0, atol=1e-9)
+        np.testing.assert_allclose(again, points[order] @ rotation, rtol=0, atol=1e-15)
 
 
 def test_pieces_that_overlap_and_holes_that_break_through_are_unsound() -> None:

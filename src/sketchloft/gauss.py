@@ -8,7 +8,7 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 
-__all__ = ["gauss"]
+__all__ = ["gauss", "gauss_between"]
 
 
 @functools.cache
@@ -17,3 +17,10 @@ def gauss(count: int) -> tuple[Floats, Floats]:
     nodes, weights = np.polynomial.legendre.leggauss(count)
     nodes.flags.writeable = weights.flags.writeable = False
     return nodes, weights
+
+
+def gauss_between(ends: Floats, count: int) -> tuple[Floats, Floats]:
+    """Nodes and weights of that rule on every span between rising ends (k + 1,), each (k * count,)."""
+    nodes, weights = gauss(count)
+    half = np.diff(ends)[:, None] / 2
+    return (ends[:-1, None] + half * (1 + nodes)).ravel(), (half * weights).ravel()

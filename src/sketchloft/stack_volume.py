@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.gauss import gauss
+from sketchloft.gauss import gauss_between
 from sketchloft.stack import Stack, Wall
 from sketchloft.wall.filleted import Filleted
 from sketchloft.wall.lofted import Lofted
@@ -43,9 +43,9 @@ def _quadrature(wall: Wall, low: float, high: float) -> tuple[Floats, Floats]:
         return _swept_quadrature(wall, low, high)
     match wall.profile:
         case SplineProfile(knots):
-            return _gauss(_ends(knots, low, high))
+            return gauss_between(_ends(knots, low, high), POINTS)
         case LineProfile(height, radius, slope) if slope:  # a cone ends at its apex
-            return _gauss(_ends(np.array([height - radius / slope]), low, high))
+            return gauss_between(_ends(np.array([height - radius / slope]), low, high), POINTS)
         case ArcProfile(height, offset, radius):
             reach = (
                 np.sqrt(max(radius**2 - (offset or 0.0) ** 2, 0.0)) if (offset or 0.0) < radius else radius
@@ -54,9 +54,9 @@ def _quadrature(wall: Wall, low: float, high: float) -> tuple[Floats, Floats]:
             inner = height + np.array([-reach, reach])
             sines = (_ends(inner, float(ends[0]), float(ends[1])) - height) / radius
             angles = np.arcsin(np.clip(sines, -1, 1))
-            angle, weights = _gauss(angles, ARC_POINTS)
+            angle, weights = gauss_between(angles, ARC_POINTS)
             return height + radius * np.sin(angle), weights * radius * np.cos(angle)
-    return _gauss(np.array([low, high]))
+    return gauss_between(np.array([low, high]), POINTS)
 
 
 def _swept_quadrature(
@@ -64,18 +64,12 @@ def _swept_quadrature(
 ) -> tuple[Floats, Floats]:
     """The same of a wall that is not revolved."""
     if isinstance(wall, Lofted):
-        return _gauss(_ends(wall.knots, low, high))
+        return gauss_between(_ends(wall.knots, low, high), POINTS)
     if isinstance(wall, Filleted):
         heights, weights = zip(*wall.spans(low, high), strict=True)
         return np.concatenate(heights), np.concatenate(weights)
-    return _gauss(np.clip(wall.tips(), low, high))
+    return gauss_between(np.clip(wall.tips(), low, high), POINTS)
 
 
 def _ends(inner: Floats, low: float, high: float) -> Floats:
     return np.unique(np.concatenate([[low, high], inner[(inner > low) & (inner < high)]]))
-
-
-def _gauss(ends: Floats, points: int = POINTS) -> tuple[Floats, Floats]:
-    x, w = gauss(points)
-    half = np.diff(ends)[:, None] / 2
-    return (ends[:-1, None] + half * (1 + x)).ravel(), (half * w).ravel()

@@ -15,9 +15,9 @@ from OCP.TopoDS import TopoDS_Face, TopoDS_Shape
 
 from sketchloft.brep.explore import edges_of, faces_of, vertices_of
 from sketchloft.brep.kernel import point, skin_of
-from sketchloft.brep.sections import gauss_points
 from sketchloft.cloud import Floats
-from sketchloft.surface import SkinSurface, evaluate
+from sketchloft.gauss import gauss_between
+from sketchloft.surface import SkinSurface, distinct_knots, evaluate
 
 __all__ = ["volume_and_area"]
 
@@ -74,8 +74,8 @@ def _skin(face: TopoDS_Face, surface: Geom_BSplineSurface | Geom_SweptSurface) -
 
 def _skin_flux_and_area(skin: SkinSurface, origin: Floats) -> tuple[float, float]:
     extra = 0 if skin.weights is None else 6
-    u, u_weights = gauss_points(skin.u_knots, (3 * skin.u_degree + 1) // 2 + extra)
-    v, v_weights = gauss_points(skin.v_knots, (3 * skin.v_degree + 1) // 2 + extra)
+    u, u_weights = gauss_between(distinct_knots(skin.u_knots), (3 * skin.u_degree + 1) // 2 + extra)
+    v, v_weights = gauss_between(distinct_knots(skin.v_knots), (3 * skin.v_degree + 1) // 2 + extra)
     around, along = evaluate(skin, u, v, u_derivative=1), evaluate(skin, u, v, v_derivative=1)
     normals = np.cross(around, along)
     fluxes = np.einsum("vuk,vuk->vu", evaluate(skin, u, v) - origin, normals)

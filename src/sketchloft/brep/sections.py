@@ -7,21 +7,13 @@ from numpy.typing import NDArray
 
 from sketchloft.cloud import Floats
 from sketchloft.errors import ModelError
-from sketchloft.gauss import gauss
+from sketchloft.gauss import gauss_between
 from sketchloft.surface import SkinSurface, distinct_knots, evaluate
 
-__all__ = ["check_sections", "gauss_points", "section_axis", "section_volume", "subdivided"]
+__all__ = ["check_sections", "section_axis", "section_volume", "subdivided"]
 
 PARALLEL = 1e-7
 """How far a pole may leave the plane of its section, as a share of the solid's length."""
-
-
-def gauss_points(knots: Floats, count: int) -> tuple[Floats, Floats]:
-    """Gauss-Legendre points and weights on every span of a knot vector, exact to degree 2 count - 1."""
-    nodes, weights = gauss(count)
-    ends = distinct_knots(knots)
-    half = np.diff(ends)[:, None] / 2
-    return (ends[:-1, None] + half * (1 + nodes)).ravel(), (half * weights).ravel()
 
 
 def section_axis(surface: SkinSurface) -> Floats:
@@ -76,8 +68,8 @@ def section_volume(surface: SkinSurface) -> float:
     axis = section_axis(surface)
     across = _across(axis)
     extra = 0 if surface.weights is None else 6
-    u, u_weights = gauss_points(surface.u_knots, surface.u_degree + extra)
-    v, v_weights = gauss_points(surface.v_knots, (3 * surface.v_degree + 1) // 2)
+    u, u_weights = gauss_between(distinct_knots(surface.u_knots), surface.u_degree + extra)
+    v, v_weights = gauss_between(distinct_knots(surface.v_knots), (3 * surface.v_degree + 1) // 2)
     points = evaluate(surface, u, v) @ across.T
     tangents = evaluate(surface, u, v, u_derivative=1) @ across.T
     areas = _wedge(points, tangents) @ u_weights / 2

@@ -31,16 +31,16 @@ class Section:
         -1 for the walls of holes.
     depth, soft : lists of (n,) float arrays
         How far inside each wall, and how much of it.
-    outer, voids : (n,) float arrays
-        How much inside the pieces, and outside of the holes.
+    voids, share : (n,) float arrays
+        How much they are outside of the holes, and inside the section.
     """
 
     feet: list[WallFoot]
     signs: Ints
     depth: list[Floats]
     soft: list[Floats]
-    outer: Floats
     voids: Floats
+    share: Floats
 
 
 @dataclass(frozen=True)
@@ -57,8 +57,6 @@ class Slab:
     between : (n,) float array
         How much they are between the breaks.
     section : Section
-    part : (n,) float array
-        How much they are inside its section.
     """
 
     run: int
@@ -66,7 +64,6 @@ class Slab:
     ends: Floats
     between: Floats
     section: Section
-    part: Floats
 
 
 def slabs_of(points: Floats, model: ExactModel, sigma: float, *, caps: bool) -> list[Slab]:
@@ -94,8 +91,7 @@ def slabs_of(points: Floats, model: ExactModel, sigma: float, *, caps: bool) -> 
             continue
         near = slice(first, last)
         below, above = (_below(height, z[near], sigma) for height in ends.tolist())
-        section = _section(points[near], run, sigma)
-        found.append(Slab(j, near, ends, above - below, section, section.outer * section.voids))
+        found.append(Slab(j, near, ends, above - below, _section(points[near], run, sigma)))
     return found
 
 
@@ -103,7 +99,7 @@ def share_within(count: int, slabs: list[Slab]) -> Floats:
     """How much each of so many points is inside (n,), from 0 to 1."""
     inside = np.zeros(count)
     for slab in slabs:
-        inside[slab.near] += slab.between * slab.part
+        inside[slab.near] += slab.between * slab.section.share
     return inside
 
 
@@ -129,7 +125,7 @@ def slopes_of(points: Floats, model: ExactModel, slabs: list[Slab]) -> tuple[Flo
     slope, reach = np.zeros((len(points), walls + k + 4)), np.zeros(walls + k + 4)
     reach[walls:-1] = 1.0
     for slab in slabs:
-        j, near, between, part = slab.run, slab.near, slab.between, slab.part
+        j, near, between, part = slab.run, slab.near, slab.between, slab.section.share
         part_slope, tilt, grown = _section_slopes(points[near], model, slab)
         beside = slope[near]
         for slot, values, farthest in part_slope:
@@ -176,7 +172,8 @@ def _section(points: Floats, run: Run, sigma: float) -> Section:
     soft = [ndtr(d / sigma) for d in depth]
     pieces = len(soft) - run.holes
     outer = np.sum(soft[:pieces], axis=0) if pieces else np.ones(len(points))
-    return Section(feet, signs, depth, soft, outer, np.prod(soft[pieces:], axis=0))
+    voids = np.prod(soft[pieces:], axis=0)
+    return Section(feet, signs, depth, soft, voids, outer * voids)
 
 
 def _section_slopes(
@@ -188,7 +185,7 @@ def _section_slopes(
     slopes: list[tuple[Ints, Floats, Floats]] = []
     for i, (foot, sign, depth) in enumerate(zip(seen.feet, seen.signs, seen.depth, strict=True)):
         bell = np.exp(-0.5 * (depth / sigma) ** 2) / (sigma * np.sqrt(2 * np.pi))
-        bell = bell * (seen.voids if sign > 0 else slab.part / np.maximum(seen.soft[i], 1e-12))
+        bell = bell * (seen.voids if sign > 0 else seen.share / np.maximum(seen.soft[i], 1e-12))
         values = -sign * bell[:, None] * foot.gradient
         near = np.abs(depth) < REACH * sigma
         farthest = np.abs(foot.gradient[near]).max(axis=0, initial=0.2)

@@ -24,6 +24,7 @@ from sketchloft.slice_planes import SlicePlanes, SlicePlanesParams, slice_planes
 from sketchloft.surface import SkinSurface
 from sketchloft.untangle import untangled
 from sketchloft.work_points import WorkedSlice, WorkPointsParams, follow_slope, work_points
+from sketchloft.workers import ALONE, Workers
 
 if TYPE_CHECKING:  # the kernel takes most of a second to load
     from sketchloft.brep.facts import SolidFacts
@@ -139,7 +140,10 @@ class Reconstruction:
 
 
 def reconstruct(
-    cloud: PointCloud, params: Params | None = None, progress: Progress = lambda _: None
+    cloud: PointCloud,
+    params: Params | None = None,
+    progress: Progress = lambda _: None,
+    workers: Workers = ALONE,
 ) -> Reconstruction:
     """Turn a cloud into solids by slicing and lofting (paper, section 4).
 
@@ -149,6 +153,8 @@ def reconstruct(
     params : Params, optional
     progress : callable, optional
         Called with the name of each stage when it begins.
+    workers : Workers, optional
+        Who do pieces of the work beside this process; they change nothing but how long it takes.
 
     Returns
     -------
@@ -186,14 +192,21 @@ def reconstruct(
         check_bodies(params.plan, len(parts))
     names = [cloud.name] if len(parts) == 1 else [f"{cloud.name}-{i + 1}" for i in range(len(parts))]
     bodies = [
-        _body(name, cleaned.points[part], cleaned.centre, params, progress, index=i)
+        _body(name, cleaned.points[part], cleaned.centre, params, progress, workers=workers, index=i)
         for i, (name, part) in enumerate(zip(names, parts, strict=True))
     ]
     return Reconstruction(cleaned, params, tuple(bodies))
 
 
 def _body(
-    name: str, points: Floats, centre: Floats, params: Params, progress: Progress, *, index: int
+    name: str,
+    points: Floats,
+    centre: Floats,
+    params: Params,
+    progress: Progress,
+    *,
+    workers: Workers,
+    index: int,
 ) -> ExactBody | BodyModel:
     if len(points) < MIN_POINTS:
         raise StageError(
@@ -212,6 +225,7 @@ def _body(
                 axis=params.direction.axis,
                 params=params.exact,
                 progress=progress,
+                workers=workers,
             )
         except (StageError, ModelError, np.linalg.LinAlgError) as error:
             return replace(_sliced_and_lofted(name, points, centre, params, progress), instead=str(error))

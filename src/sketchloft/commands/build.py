@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Annotated
 
@@ -28,6 +29,7 @@ from sketchloft.shapes.choice import ShapesParams, parse_shapes
 from sketchloft.slice_planes import CentralAxis, SlicePlanesParams, parse_per_slice
 from sketchloft.summary import summary, summary_lines
 from sketchloft.work_points import Working, WorkPointsParams
+from sketchloft.workers import ALONE, workers
 
 __all__ = ["build"]
 
@@ -100,10 +102,14 @@ def build(
     if report is not None:
         check_writable(report)
     stages = ("read", *(EXACT_STAGES if method == "exact" else STAGES), "write", "report")
-    with progress(stages, quiet=quiet, verbose=verbose) as begin:
+    searches = method == "exact" and plan is None
+    with (
+        progress(stages, quiet=quiet, verbose=verbose) as begin,
+        workers() if searches else nullcontext(ALONE) as team,
+    ):
         begin("read")
         points = read_cloud(cloud, unit=unit)
-        result = reconstruct(points, params, begin)
+        result = reconstruct(points, params, begin, team)
         begin("write")
         solids = [NamedSolid(body.name, body.solid) for body in result.bodies]
         if report is not None:

@@ -6,16 +6,19 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from sketchloft.cloud import Floats
 from sketchloft.direction import Axis
 from sketchloft.errors import ModelError
 from sketchloft.exact.model.exact_model import ExactModel
-from sketchloft.exact.search.search import searched
-from sketchloft.exact.start.choose_start import started
+from sketchloft.exact.search.searches import searched
 from sketchloft.exact.start.direction import Candidate
 from sketchloft.exact.start.segments import SegmentsParams
+from sketchloft.exact.start.start import directions
 from sketchloft.frame import Frame
 from sketchloft.robust_size import middle_and_size
+from sketchloft.workers import ALONE, Workers
 
 if TYPE_CHECKING:
     from sketchloft.brep.facts import SolidFacts
@@ -89,6 +92,7 @@ def exact_body(
     axis: Axis,
     params: ExactParams,
     progress: Callable[[str], None],
+    workers: Workers = ALONE,
 ) -> ExactBody:
     """Model a body.
 
@@ -103,6 +107,7 @@ def exact_body(
     params : ExactParams
     progress : callable
         Called with the name of each stage when it begins.
+    workers : Workers, optional
 
     Raises
     ------
@@ -111,14 +116,17 @@ def exact_body(
     ModelError
         If the solid fails a check.
     """
-    from sketchloft.brep.build_stack import built_stack  # noqa: PLC0415  the kernel takes most of a second
-
     progress("direction")
     middle, scale = middle_and_size(points)
-    starts = started((points - middle) / scale, axis, params.segments, progress)
-    progress("evidence")
+    unit = (points - middle) / scale
+    compared = workers.begin(directions, unit, params.segments) if axis == "auto" else None
+    # The kernel takes most of a second, in which a worker compares the directions.
+    from sketchloft.brep.build_stack import built_stack  # noqa: PLC0415
+
+    candidates = () if compared is None else compared.result()
+    vector = candidates[0].vector if candidates else np.asarray(axis, dtype=float)
     refused: list[ModelError] = []
-    for found in searched(starts, tilt=axis == "auto", progress=progress):
+    for found in searched(unit, vector, candidates, params.segments, progress=progress, workers=workers):
         start, frame = found.start, Frame(found.turn.T @ found.start.frame.axes)
         progress("solid")
         try:

@@ -31,6 +31,12 @@ LAST = 4
 """Parameters that come last: tilt, log sigma and log stray."""
 LARGEST = 0.5, 1.0
 """Largest steps of the last two."""
+FAR_ENOUGH = 0.75
+"""Share of a step that the best one has at least, for there to be less damping."""
+SHORTEST = 0.01
+"""Share of a step that the next one is cut down to at most."""
+EASED = 0.1
+"""Damping at least after a step that led to no model at all, and below which a small gain is the last."""
 STRIDE = 3.0
 """How far a single parameter may move a wall in one step, in noise deviations."""
 
@@ -95,16 +101,16 @@ def climb(
             candidate, rotation = _moved(model, step, (least, most))
             turned = seen @ rotation if tilt else seen
             then = evaluate(turned, candidate, caps=caps)
-            if then.value > now.value:
+            gain = then.value - now.value
+            damping = _damping(damping, float(now.derivatives.score @ step), gain)
+            if gain > 0:
                 moved = candidate, turned, rotation, then
                 break
-            damping = max(10 * damping, 1e-3)
         if moved is None:
             break
-        gain = moved[3].value - now.value
         model, seen, rotation, now = moved
-        turn, damping = turn @ rotation, damping / 10
-        if gain < enough:
+        turn = turn @ rotation
+        if gain < enough and damping < EASED:  # much damping gains little, however much there is to gain
             break
     return model, points @ turn if tilt else points, turn
 
@@ -161,6 +167,20 @@ def _step(now: Derivatives, free: Bools, damping: float, sigma: float) -> Floats
         limit[index == place] = largest
     step[index] = np.clip(raw, -limit, limit)
     return step
+
+
+def _damping(damping: float, slope: float, gain: float) -> float:
+    """Damping of the next step, from how far along the last one a parabola would be highest.
+
+    References
+    ----------
+    J. E. Dennis, R. B. Schnabel, Numerical methods for unconstrained optimization and nonlinear equations,
+    SIAM (1996), section 6.3.2: backtracking by a parabola through two values and a slope.
+    """
+    if not np.isfinite(gain):
+        return max(10 * damping, EASED)
+    best = slope / (2 * (slope - gain)) if gain < slope else np.inf
+    return damping / 10 if best > FAR_ENOUGH else max((1 + damping) / max(best, SHORTEST) - 1, 2 * damping)
 
 
 def _moved(model: ExactModel, step: Floats, limits: tuple[float, float]) -> tuple[ExactModel, Floats]:

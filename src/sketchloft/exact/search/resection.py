@@ -7,26 +7,33 @@ import numpy as np
 from sketchloft.cloud import Floats
 from sketchloft.exact.changes.misfit import misfit
 from sketchloft.exact.changes.trial import Change, tried
+from sketchloft.exact.fit.climb import climb
+from sketchloft.exact.fit.likelihood import beside_walls
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.surgery import with_run
 from sketchloft.exact.section.rarity import COMMON
 from sketchloft.exact.section.segment_walls import segment_run
+from sketchloft.exact.start.choose_start import CLEAR
 from sketchloft.exact.start.first_stack import FEWEST
-from sketchloft.stack import Wall
+from sketchloft.exact.start.start import Start
+from sketchloft.stack import Run, Wall
 from sketchloft.wall.profile import SplineProfile
 from sketchloft.wall.revolved import Revolved
 from sketchloft.wall.swept import Swept
+from sketchloft.workers import ALONE, Workers, results
 
 __all__ = ["resectioned"]
 
 MOVED = 1.5
 """Noise deviations that a break or a wall has moved by since its section was found that count."""
+NEAR, STEPS = 6.0, 6
+"""Noise deviations from the walls within which points tell how sharp these are, and steps of that fit."""
 BESIDE = 2.0
 """Noise deviations beside a break within which points belong to neither run."""
 
 
 def resectioned(
-    points: Floats, model: ExactModel, together: float, cuts: Floats, upright: float
+    points: Floats, model: ExactModel, start: Start, upright: float, workers: Workers = ALONE
 ) -> ExactModel:
     """Find the sections of runs anew whose breaks or direction have moved since, and keep what pays.
 
@@ -34,17 +41,27 @@ def resectioned(
     ----------
     points : (n, 3) float array
     model : ExactModel
-    together : float
-        How many of the points go together.
-    cuts : (k + 1,) float array
-        Between which sections were found.
+    start : Start
+        Where the search began.
     upright : float
         Cosine of the angle between the direction then and now.
+    workers : Workers, optional
     """
+    together, again, parts = start.together, [], []
+    sharp = together > 1 and _noise(points, model) < CLEAR
     for j in range(len(model.stack.runs)):
-        again = _moved(model, j, cuts, upright, together) and not _settled(points, model, j, together)
-        change = _change(points, model, j, together) if again else None
-        if change is not None:
+        inner, ends = _between(points, model, j)
+        moved = _moved(model, j, start.cuts, upright, together)
+        settled = all(_plain(wall) for wall in model.stack.runs[j].walls) and (
+            sharp or (together == 1 and misfit(points, model, range(j, j + 1), together) == 0)
+        )
+        if moved and not settled and len(inner) >= FEWEST:
+            again.append(j)
+            parts.append((inner, ends))
+    jobs = [workers.begin(segment_run, *part, model.sigma, together, model.density) for part in parts]
+    for j, run in zip(again, results(jobs), strict=True):
+        if run is not None and _kinds(run) != _kinds(model.stack.runs[j]):
+            change = Change(with_run(model, j, run), range(j, j + 1), free=True)
             model = tried(points, model, change, together) or model
     return model
 
@@ -59,14 +76,10 @@ def _moved(model: ExactModel, j: int, cuts: Floats, upright: float, together: fl
     return max(leaning, *(float(np.abs(cuts - z).min()) for z in (low, high))) > near
 
 
-def _settled(points: Floats, model: ExactModel, j: int, together: float) -> bool:
-    """Whether there is nothing simpler than the walls of a run, and the points have nothing against them."""
-    walls = model.stack.runs[j].walls
-    return (
-        together == 1
-        and all(_plain(wall) for wall in walls)
-        and misfit(points, model, range(j, j + 1), together) == 0
-    )
+def _noise(points: Floats, model: ExactModel) -> float:
+    """Noise that suits a model: strokes leave walls sharp only where these are the right ones."""
+    near = points[beside_walls(points, model, NEAR * model.sigma)]
+    return climb(near, model, STEPS, noise=True)[0].sigma
 
 
 def _plain(wall: Wall) -> bool:
@@ -75,16 +88,13 @@ def _plain(wall: Wall) -> bool:
     return isinstance(wall, Swept) and isinstance(wall.outline, COMMON)
 
 
-def _change(points: Floats, model: ExactModel, j: int, together: float) -> Change | None:
-    """A run with its section found anew; None where there is none, or walls of the same kinds."""
+def _between(points: Floats, model: ExactModel, j: int) -> tuple[Floats, tuple[float, float]]:
+    """Points of a run away from its breaks, and between which heights."""
     low, high = model.stack.breaks[[j, j + 1]].tolist()
     margin = min(BESIDE * model.sigma, (high - low) / 5)
     ends = low + margin, high - margin
-    inner = points[(points[:, 2] > ends[0]) & (points[:, 2] < ends[1])]
-    if len(inner) < FEWEST:
-        return None
-    found = segment_run(inner, ends, model.sigma, together, model.density)
-    kinds = [wall.kind for wall in model.stack.runs[j].walls]
-    if found is None or [wall.kind for wall in found.walls] == kinds:
-        return None
-    return Change(with_run(model, j, found), range(j, j + 1), free=True)
+    return points[(points[:, 2] > ends[0]) & (points[:, 2] < ends[1])], ends
+
+
+def _kinds(run: Run) -> list[str]:
+    return [wall.kind for wall in run.walls]

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from itertools import chain
 
 import numpy as np
 
@@ -27,16 +26,12 @@ from sketchloft.exact.search.stray_strokes import counted
 from sketchloft.exact.search.upended import upended
 from sketchloft.exact.search.upright import upright
 from sketchloft.exact.start.start import BESIDE, Start
-from sketchloft.wall.lofted import Lofted
+from sketchloft.workers import ALONE, Workers
 
-__all__ = ["Found", "searched"]
+__all__ = ["Found", "search"]
 
 AT_LEAST = 0.004
 """Noise that the evidence is judged with at least: sharper walls would trap the search."""
-BLURRED = 0.006
-"""Noise, as a share of the size, above which the walls of a cloud of strokes may be the wrong ones."""
-WRONG = 15.0
-"""Misfit above which those of an even cloud may be."""
 
 
 @dataclass(frozen=True)
@@ -67,52 +62,27 @@ class Found:
     misfit: float
 
 
-def searched(starts: tuple[Start, ...], *, tilt: bool, progress: Callable[[str], None]) -> Iterator[Found]:
-    """Yield where searches end, the best first; those after it are for a model that makes no solid.
+def search(
+    start: Start,
+    *,
+    tilt: bool,
+    lofts: bool = True,
+    progress: Callable[[str], None],
+    workers: Workers = ALONE,
+) -> Found:
+    """Find the runs on a sample and fit them to all points.
 
     Parameters
     ----------
-    starts : tuple of Start
-        The best first.
+    start : Start
     tilt : bool
         Whether the direction moves, too.
+    lofts : bool
+        Whether free lofts are tried.
     progress : callable
         Called with "fit" when the runs are found.
-
-    Notes
-    -----
-    The first is searched for from the best start. Others are from the next one, where the points have
-    something against its walls or a free loft beside other runs hides what they have; and from the next and
-    the sharpest, where strokes leave its walls blurred. Each end with a free loft is followed by one without.
+    workers : Workers, optional
     """
-
-    def search(start: Start, *, lofts: bool = True) -> Found:
-        return _found(start, tilt=tilt, lofts=lofts, progress=progress)
-
-    found = [search(starts[0])]
-    others = list(starts[1:])
-    if others and starts[0].together == 1 and (found[0].misfit > WRONG or _patched(found[0].model)):
-        found.append(search(others.pop(0)))
-    elif others and starts[0].together > 1 and found[0].model.sigma >= BLURRED:
-        sharpest = min(others, key=lambda start: start.merged.sigma)
-        for start in [others[0]] if others[0] is sharpest else [others[0], sharpest]:
-            found.append(search(start))
-            others.remove(start)
-    found.sort(key=lambda end: -end.value)
-    for end in chain(found, map(search, others)):
-        yield end
-        if any(isinstance(wall, Lofted) for run in end.model.stack.runs for wall in run.walls):
-            yield search(end.start, lofts=False)
-
-
-def _patched(model: ExactModel) -> bool:
-    """Whether a free loft lies beside other runs, as it may where a simpler thing is seen from its side."""
-    runs = model.stack.runs
-    return len(runs) > 1 and any(isinstance(wall, Lofted) for run in runs for wall in run.walls)
-
-
-def _found(start: Start, *, tilt: bool, lofts: bool, progress: Callable[[str], None]) -> Found:
-    """Find the runs on a sample and fit them to all points."""
     sample, together, model = start.sample, start.together, start.settled
     sigma = max(model.sigma, AT_LEAST)
     natural = natural_joins(replace(natural_joins(model), sigma=sigma))
@@ -127,7 +97,7 @@ def _found(start: Start, *, tilt: bool, lofts: bool, progress: Callable[[str], N
         turn = turn @ rotation
         model, rotation = upright(sample @ turn, model, together)
         turn = turn @ rotation
-    again = resectioned(sample @ turn, model, together, start.cuts, (start.settling @ turn)[2, 2])
+    again = resectioned(sample @ turn, model, start, (start.settling @ turn)[2, 2], workers)
     if again is not model:
         model = improved(sample @ turn, again, together, lofts=lofts)
     strays = without_absorbed(sample @ turn, model, together)

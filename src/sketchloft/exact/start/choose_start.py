@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.direction import Axis
 from sketchloft.exact.start.direction import Candidate
 from sketchloft.exact.start.segments import SegmentsParams
-from sketchloft.exact.start.start import Start, directions, start_along
+from sketchloft.exact.start.start import Start, start_along
 from sketchloft.exact.start.through_sphere import through_sphere
+from sketchloft.outline.circle import Circle
+from sketchloft.wall.revolved import Revolved
+from sketchloft.wall.swept import Swept
 
-__all__ = ["started"]
+__all__ = ["CLEAR", "apart", "other_starts"]
 
 CLOSE = 0.03
 """Log likelihood per point by which a direction may be behind the best and yet have the better stack, where
@@ -27,7 +27,7 @@ CONTENDERS = 2
 BLURRED_CONTENDERS = 4
 """The same for a cloud of strokes, by rough first stacks."""
 FULL = 2
-"""How many of these are looked at again in full."""
+"""How many of these are kept, and looked at again in full where that may tell more."""
 BEHIND = 40.0
 """Log likelihood by which a rough first stack may be behind the best one and yet be worth a full one."""
 CLEAR = 0.004
@@ -38,35 +38,21 @@ TURNED = 0.04
 Candidates = tuple[Candidate, ...]
 
 
-def started(
-    points: Floats, axis: Axis, params: SegmentsParams, progress: Callable[[str], None]
-) -> tuple[Start, ...]:
-    """Find the direction and the first stack; those along other directions that were looked at, too.
+def other_starts(points: Floats, first: Start, params: SegmentsParams) -> tuple[Start, ...]:
+    """Find the first stacks along other directions that explain the points about as well.
 
     Parameters
     ----------
     points : (n, 3) float array
-        About 1 across, about their middle.
-    axis : "auto" or (3,) tuple of float
+        As for the first.
+    first : Start
     params : SegmentsParams
-    progress : callable
-        Called with "runs" when the direction is known, or a few are.
 
     Returns
     -------
     tuple of Start
-        The best first, by what its first stack is worth.
-
-    Raises
-    ------
-    StageError
-        If no section is found, or the points are on a skin.
     """
-    candidates = directions(points, params) if axis == "auto" else ()
-    progress("runs")
-    vector = candidates[0].vector if candidates else np.asarray(axis, dtype=float)
-    first = start_along(points, vector, candidates, params)
-    blurred = first.together > 1
+    candidates, blurred = first.candidates, first.together > 1
     others = _blurred_contenders if blurred else _contenders
     starts = [first, *others(points, first, candidates, params)]
     best = max(starts, key=_value)
@@ -78,9 +64,9 @@ def started(
     if through is not None and all(abs(float(through @ start.direction)) < BESIDE for start in starts):
         starts.append(start_along(points, through, best.candidates, params))
         best = max(starts, key=_value)
-    if blurred and not best.plain:
+    if blurred and not best.plain and best.merged.sigma >= CLEAR:
         starts.append(start_along(points, best.frame.axes[2], best.candidates, params, fine=True))
-    return _apart(sorted(starts, key=_value, reverse=True))
+    return tuple(starts[1:])
 
 
 def _contenders(points: Floats, first: Start, candidates: Candidates, params: SegmentsParams) -> list[Start]:
@@ -116,9 +102,20 @@ def _blurred_contenders(
         for k in _unlike(candidates)[: BLURRED_CONTENDERS + 1][1:]
     ]
     least = max(start.value for start in (first, *rough)) - BEHIND
-    likely = _apart(sorted((start for start in rough if start.value > least), key=_value, reverse=True))
-    again = [start.candidates for start in likely[:FULL]]
-    return [start_along(points, order[0].vector, order, params) for order in again]
+    likely = apart([start for start in rough if start.value > least])
+    return [
+        start if _round(start) else start_along(points, start.candidates[0].vector, start.candidates, params)
+        for start in likely[:FULL]
+    ]
+
+
+def _round(start: Start) -> bool:
+    """Whether all sections are circles, so that strokes that are this blurred tell of no corners."""
+    walls = [wall for run in start.merged.stack.runs for wall in run.walls]
+    return all(
+        isinstance(wall, Revolved) or (isinstance(wall, Swept) and isinstance(wall.outline, Circle))
+        for wall in walls
+    )
 
 
 def _unlike(candidates: Candidates) -> list[int]:
@@ -134,13 +131,13 @@ def _led_by(candidates: Candidates, k: int) -> Candidates:
     return (candidates[k], *candidates[:k], *candidates[k + 1 :])
 
 
-def _apart(starts: list[Start]) -> tuple[Start, ...]:
-    """The first of the starts whose directions have become one."""
+def apart(starts: list[Start]) -> list[Start]:
+    """Sort starts by what their stacks are worth; of those whose directions have become one keep the best."""
     found: list[Start] = []
-    for start in starts:
+    for start in sorted(starts, key=_value, reverse=True):
         if all(abs(float(start.direction @ other.direction)) < SAME for other in found):
             found.append(start)
-    return tuple(found)
+    return found
 
 
 def _value(start: Start) -> float:

@@ -11,6 +11,7 @@ from sketchloft.exact.model.density import Density
 from sketchloft.exact.model.exact_model import ExactModel, model_of
 from sketchloft.exact.section.segment_walls import segment_run
 from sketchloft.stack import Run, Stack
+from sketchloft.workers import ALONE, Workers, results
 
 __all__ = ["first_stack"]
 
@@ -28,26 +29,29 @@ def first_stack(
     density: Density,
     space: float,
     rough: bool = False,
+    workers: Workers = ALONE,
 ) -> ExactModel | None:
     """Model of the segments between cuts (k + 1,), from points (n, 3) without strays.
 
     Segments too thin or too empty for a section of their own are left to their neighbours. None where
     no segment has a section. A rough one knows few kinds of sections.
     """
+    spans, parts = [], []
+    for low, high in itertools.pairwise(cuts.tolist()):
+        margin = min(blur, (high - low) / 5)
+        inner = points[(points[:, 2] > low + margin) & (points[:, 2] < high - margin)]
+        if high - low >= blur and len(inner) >= FEWEST:
+            spans.append((low, high))
+            parts.append((inner, (low + margin, high - margin)))
+    jobs = [workers.begin(segment_run, *part, sigma, together, density, rough=rough) for part in parts]
     runs: list[Run] = []
     breaks: list[float] = []
     last = float(cuts[0])
-    for low, high in itertools.pairwise(cuts.tolist()):
-        margin = min(blur, (high - low) / 5)
-        ends = float(low + margin), float(high - margin)
-        inner = points[(points[:, 2] > ends[0]) & (points[:, 2] < ends[1])]
-        thin = high - low < blur or len(inner) < FEWEST
-        found = None if thin else segment_run(inner, ends, sigma, together, density, rough=rough)
-        if found is None:
-            continue
-        runs.append(found)
-        breaks.append((float(low) + last) / 2)
-        last = float(high)
+    for (low, high), found in zip(spans, results(jobs), strict=True):
+        if found is not None:
+            runs.append(found)
+            breaks.append((low + last) / 2)
+            last = high
     if not runs:
         return None
     breaks[0] = float(cuts[0])

@@ -21,9 +21,11 @@ from sketchloft.exact.start.first_stack import first_stack
 from sketchloft.exact.start.inside_density import inside_density
 from sketchloft.exact.start.segments import SegmentsParams, segments
 from sketchloft.frame import Frame, frame_along, principal_frame
+from sketchloft.wall.revolved import Revolved
 from sketchloft.wall.swept import Swept
+from sketchloft.workers import ALONE, Workers
 
-__all__ = ["BESIDE", "ROOM", "SEARCH_POINTS", "Start", "directions", "sampled", "start_along"]
+__all__ = ["BESIDE", "ROOM", "SEARCH_POINTS", "Start", "directions", "plain", "sampled", "start_along"]
 
 START = 0.006
 """Noise that the search begins with, as a share of the size."""
@@ -85,10 +87,8 @@ class Start:
 
     @property
     def plain(self) -> bool:
-        """Whether there is one run, and all its sections are the same: nothing simpler can be found."""
-        runs = self.merged.stack.runs
-        moving = any(isinstance(wall, Swept) and wall.free for run in runs for wall in run.walls)
-        return len(runs) == 1 and not moving
+        """Whether the merged stack is."""
+        return plain(self.merged)
 
 
 def start_along(
@@ -99,6 +99,7 @@ def start_along(
     *,
     fine: bool = False,
     rough: bool = False,
+    workers: Workers = ALONE,
 ) -> Start:
     """First stack along a direction.
 
@@ -114,6 +115,7 @@ def start_along(
         Whether heights are cut as finely as independent points would allow.
     rough : bool
         Whether a few kinds of sections will do.
+    workers : Workers, optional
 
     Raises
     ------
@@ -134,13 +136,31 @@ def start_along(
     cuts = segments(kept, params, clump(together) if fine else together)
     space = ROOM * float(np.prod(np.ptp(sample, axis=0)))
     first = first_stack(
-        kept, cuts, grid.blur, sigma=START, together=together, density=density, space=space, rough=rough
+        kept,
+        cuts,
+        grid.blur,
+        sigma=START,
+        together=together,
+        density=density,
+        space=space,
+        rough=rough,
+        workers=workers,
     )
     if first is None:
         raise StageError("found no section that the points fill; draw more of the inside", stage="runs")
     settled, sample, settling = _settled(sample, first, tilt=bool(candidates))
     lean = merged(sample, settled, together)
     return Start(candidates, frame, local, sample, cuts, together, first, settled, lean, settling)
+
+
+def plain(model: ExactModel) -> bool:
+    """Whether there is one run, and all its sections are the same: nothing simpler can be found."""
+    runs = model.stack.runs
+    walls = [wall for run in runs for wall in run.walls]
+    moving = any(
+        not isinstance(wall, Revolved) and (not isinstance(wall, Swept) or wall.free) for wall in walls
+    )
+    return len(runs) == 1 and not moving
 
 
 def directions(points: Floats, params: SegmentsParams) -> tuple[Candidate, ...]:

@@ -1,0 +1,134 @@
+"""Searches: which first stacks are searched from, until the points have nothing against where one ends."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from functools import partial
+
+from sketchloft.cloud import Floats
+from sketchloft.exact.model.exact_model import ExactModel
+from sketchloft.exact.search.search import Found, search
+from sketchloft.exact.start.choose_start import CLEAR, apart, other_starts
+from sketchloft.exact.start.direction import Candidate
+from sketchloft.exact.start.segments import SegmentsParams
+from sketchloft.exact.start.start import Start, plain, start_along
+from sketchloft.wall.lofted import Lofted
+from sketchloft.wall.profile import SplineProfile
+from sketchloft.wall.revolved import Revolved
+from sketchloft.workers import ALONE, Workers
+
+__all__ = ["searched"]
+
+BLURRED = 0.006
+"""Noise, as a share of the size, above which the walls of a cloud of strokes may be the wrong ones."""
+WRONG = 15.0
+"""Misfit above which those of an even cloud may be."""
+
+
+def searched(
+    points: Floats,
+    vector: Floats,
+    candidates: tuple[Candidate, ...],
+    params: SegmentsParams,
+    *,
+    progress: Callable[[str], None],
+    workers: Workers,
+) -> Iterator[Found]:
+    """Yield where searches end, the best first; those after it are for a model that makes no solid.
+
+    Parameters
+    ----------
+    points : (n, 3) float array
+        About 1 across, about their middle.
+    vector : (3,) float array
+        The slicing direction, or the likeliest.
+    candidates : tuple of Candidate
+        Directions that were compared; where there are none, the direction is given and does not move.
+    params : SegmentsParams
+    progress : callable
+        Called with "runs", "evidence" and "fit" as they begin.
+    workers : Workers
+
+    Raises
+    ------
+    StageError
+        If no section is found, or the points are on a skin.
+
+    Notes
+    -----
+    The first search is from the likeliest direction. Only where its end leaves something to wish for, other
+    directions are looked at, which takes longer: their first stacks, a search from the best of these, and
+    others from the next one, where the points have something against its walls or a free loft beside other
+    runs hides what they have; and from the next and the sharpest, where strokes leave its walls blurred. Each
+    end with a free loft is followed by one without.
+    """
+    look = partial(search, tilt=bool(candidates), progress=progress, workers=workers)
+    progress("runs")
+    first = start_along(points, vector, candidates, params, workers=workers)
+    others = (ALONE if _promising(first) else workers).begin(other_starts, points, first, params)
+    progress("evidence")
+    ends = [look(first)]
+    if _clear(ends[0]):
+        yield from _with_less(ends.pop(), look)
+    progress("runs")
+    starts = apart([first, *others.result()])
+    progress("evidence")
+    if starts[0] is not first:
+        ends.append(look(starts[0]))
+    left = [start for start in starts[1:] if start is not first]
+    for start in _further(max(ends, key=_value), left) if ends else []:
+        ends.append(look(start))
+        left.remove(start)
+    for end in sorted(ends, key=_value, reverse=True):
+        yield from _with_less(end, look)
+    for start in left:
+        yield from _with_less(look(start), look)
+
+
+def _with_less(end: Found, look: Callable[..., Found]) -> Iterator[Found]:
+    """Yield an end, and after one with a free loft where the search ends without."""
+    yield end
+    if any(isinstance(wall, Lofted) for run in end.model.stack.runs for wall in run.walls):
+        yield look(end.start, lofts=False)
+
+
+def _promising(start: Start) -> bool:
+    """Whether the search from a first stack can be expected to end clear."""
+    return _simple(start.merged) or (start.together > 1 and start.merged.sigma < CLEAR)
+
+
+def _clear(end: Found) -> bool:
+    """Whether no other direction can be expected to explain more: nothing simpler, or no sharper walls."""
+    if end.start.together == 1:
+        return _simple(end.model) and end.misfit <= WRONG
+    return end.model.sigma < (BLURRED if _simple(end.model) else CLEAR)
+
+
+def _simple(model: ExactModel) -> bool:
+    """Whether all is one run of equal sections, or lines and arcs about one axis."""
+    walls = [wall for run in model.stack.runs for wall in run.walls]
+    return plain(model) or all(
+        isinstance(wall, Revolved) and not isinstance(wall.profile, SplineProfile) for wall in walls
+    )
+
+
+def _further(end: Found, others: list[Start]) -> list[Start]:
+    """Which other starts the best end so far leaves worth a search."""
+    if not others:
+        return []
+    if end.start.together == 1:
+        return others[:1] if end.misfit > WRONG or _patched(end.model) else []
+    if end.model.sigma < BLURRED:
+        return []
+    sharpest = min(others, key=lambda start: start.merged.sigma)
+    return [others[0]] if others[0] is sharpest else [others[0], sharpest]
+
+
+def _patched(model: ExactModel) -> bool:
+    """Whether a free loft lies beside other runs, as it may where a simpler thing is seen from its side."""
+    runs = model.stack.runs
+    return len(runs) > 1 and any(isinstance(wall, Lofted) for run in runs for wall in run.walls)
+
+
+def _value(end: Found) -> float:
+    return end.value

@@ -1,0 +1,174 @@
+"""Workers: processes that do pieces of the work beside this one, where there are cores to spare."""
+
+from __future__ import annotations
+
+import contextlib
+import multiprocessing
+import os
+import signal
+import threading
+from collections.abc import Callable, Iterator
+from functools import partial
+from typing import TYPE_CHECKING, Any, Generic, ParamSpec, TypeVar
+
+if TYPE_CHECKING:
+    from multiprocessing.connection import Connection
+
+__all__ = ["ALONE", "Job", "Workers", "results", "workers"]
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+MOST = 3
+"""Workers at most: hardly ever are more pieces ready at a time."""
+
+
+class Job(Generic[T]):
+    """A piece of work, that a worker is at or that is done here once its result is wanted."""
+
+    def __init__(self, work: Callable[[], T]) -> None:
+        self.work = work
+        self.worker: _Worker | None = None
+        self.found: tuple[T, bool] | None = None
+        """What the worker has sent: a result, and whether there is one."""
+
+    @property
+    def elsewhere(self) -> bool:
+        """Whether a worker has it."""
+        return self.worker is not None
+
+    def result(self) -> T:
+        """Wait for the result; what the work raises is raised here."""
+        if self.worker is not None and self.found is None:
+            self.worker.wait()
+        if self.found is not None and self.found[1]:
+            return self.found[0]
+        return self.work()
+
+
+class _Worker:
+    """A process that does one job at a time."""
+
+    def __init__(self) -> None:
+        context = multiprocessing.get_context("spawn")
+        self._here, there = context.Pipe()
+        self._process = context.Process(target=_work, args=(there,), daemon=True)
+        with _interrupts_ignored():
+            self._process.start()
+        there.close()
+        self._job: Job[Any] | None = None
+
+    def free(self) -> bool:
+        """Whether work would be begun at once."""
+        if self._job is not None and self._here.poll():
+            self.wait()
+        return self._job is None and self._process.is_alive()
+
+    def begin(self, job: Job[Any]) -> None:
+        self._here.send(job.work)
+        self._job, job.worker = job, self
+
+    def wait(self) -> None:
+        """Wait for what the job has come to; that of a worker that was killed has no result."""
+        job, self._job = self._job, None
+        if job is not None:
+            try:
+                job.found = self._here.recv()
+            except (EOFError, OSError):
+                job.found = None, False
+
+    def stop(self) -> None:
+        self._process.terminate()
+        self._process.join()
+
+
+class Workers:
+    """Some workers, or none.
+
+    Parameters
+    ----------
+    count : int
+    """
+
+    def __init__(self, count: int) -> None:
+        self._workers = [_Worker() for _ in range(count)]
+
+    def begin(self, function: Callable[P, T], *args: P.args, **kwargs: P.kwargs) -> Job[T]:
+        """Let a worker that is free do a piece of work.
+
+        Parameters
+        ----------
+        function : callable
+            Of a module, and one that depends on its arguments only.
+        *args, **kwargs : object
+            That can be pickled.
+        """
+        job = Job(partial(function, *args, **kwargs))
+        worker = next((worker for worker in self._workers if worker.free()), None)
+        if worker is not None:
+            with contextlib.suppress(OSError):  # it may be killed just now
+                worker.begin(job)
+        return job
+
+    def stop(self) -> None:
+        """End them, whatever they do."""
+        for worker in self._workers:
+            worker.stop()
+
+
+def results(jobs: list[Job[T]]) -> list[T]:
+    """Results of jobs in their order, those that workers are at waited for last."""
+    found = {k: jobs[k].result() for k in sorted(range(len(jobs)), key=lambda k: jobs[k].elsewhere)}
+    return [found[k] for k in range(len(jobs))]
+
+
+ALONE = Workers(0)
+"""No workers: all is done here, in its turn."""
+
+
+@contextlib.contextmanager
+def workers() -> Iterator[Workers]:
+    """Have a worker on each core that is to spare, a few at most, until the context ends.
+
+    Notes
+    -----
+    They import the main module anew, so that a script of whoever calls this needs the usual guard,
+    ``if __name__ == "__main__"``. The command line has one.
+    """
+    team = Workers(min(_cores() - 1, MOST))
+    try:
+        yield team
+    finally:
+        team.stop()
+
+
+def _cores() -> int:
+    """Cores that this process may run on."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def _work(orders: Connection) -> None:
+    """Do what is ordered, until there is nobody to order any more."""
+    with contextlib.suppress(EOFError, OSError):
+        while True:
+            work = orders.recv()
+            try:
+                found = work(), True
+            except Exception:  # whoever waits does it again, and sees what is raised
+                found = None, False
+            orders.send(found)
+
+
+@contextlib.contextmanager
+def _interrupts_ignored() -> Iterator[None]:
+    """Start a process that ignores interrupts, which are for the one that started it."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)

@@ -1,0 +1,95 @@
+"""Workers: what they do is what would have been done here."""
+
+from __future__ import annotations
+
+import operator
+import os
+import time
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+
+from sketchloft import reconstruct
+from sketchloft.exact.body import ExactBody
+from sketchloft.sample import GOALS, FillParams, sample_goal
+from sketchloft.workers import ALONE, Workers, results
+
+SCRIBBLED = FillParams(fill="strokes", jitter=0.001, drift=0.003, outliers=0.005)
+
+
+@pytest.fixture(scope="module")
+def team() -> Iterator[Workers]:
+    team = Workers(1)
+    yield team
+    team.stop()
+
+
+def _until_free(team: Workers) -> None:
+    """Wait until work is begun elsewhere again."""
+    for _ in range(200):
+        job = team.begin(os.getpid)
+        if job.elsewhere:
+            assert job.result() != os.getpid()
+            return
+        time.sleep(0.05)
+    raise AssertionError("the worker is never free")
+
+
+def test_a_worker_is_another_process(team: Workers) -> None:
+    job = team.begin(os.getpid)
+    assert job.elsewhere
+    assert job.result() != os.getpid()
+    assert not ALONE.begin(os.getpid).elsewhere
+    assert ALONE.begin(os.getpid).result() == os.getpid()
+
+
+def test_results_come_in_order_whoever_found_them(team: Workers) -> None:
+    asleep = team.begin(time.sleep, 0.5)
+    jobs = [asleep, *[team.begin(pow, 2, k) for k in range(4)]]
+    assert [job.elsewhere for job in jobs] == [True, False, False, False, False]
+    assert results(jobs) == [None, 1, 2, 4, 8]
+
+
+def test_a_result_waits_until_it_is_wanted(team: Workers) -> None:
+    first = team.begin(os.getpid)
+    _until_free(team)
+    second = team.begin(os.getpid)
+    assert first.elsewhere
+    assert second.elsewhere
+    assert second.result() == first.result() == first.result() != os.getpid()
+
+
+def test_what_is_raised_there_is_raised_here(team: Workers) -> None:
+    job = team.begin(operator.truediv, 1, 0)
+    assert job.elsewhere
+    with pytest.raises(ZeroDivisionError):
+        job.result()
+
+
+def test_a_result_that_nobody_waits_for_is_dropped(team: Workers) -> None:
+    assert team.begin(time.sleep, 0.2).elsewhere
+    assert not team.begin(pow, 2, 2).elsewhere  # as the worker is at it still
+    _until_free(team)
+
+
+def test_work_of_a_worker_that_is_killed_is_done_here() -> None:
+    team = Workers(1)
+    asleep = team.begin(time.sleep, 0.3)
+    assert asleep.elsewhere
+    team.stop()
+    begun = time.perf_counter()
+    asleep.result()
+    assert time.perf_counter() - begun >= 0.3
+    assert team.begin(pow, 2, 3).result() == 8
+
+
+@pytest.mark.parametrize("params", [FillParams(), pytest.param(SCRIBBLED, marks=pytest.mark.slow)])
+def test_a_model_is_the_same_whoever_works_at_it(team: Workers, params: FillParams) -> None:
+    cloud = sample_goal(GOALS["stepped-shaft"], 5000, params, seed=3)
+    alone, helped = (reconstruct(cloud, workers=workers).bodies[0] for workers in (ALONE, team))
+    assert isinstance(alone, ExactBody)
+    assert isinstance(helped, ExactBody)
+    np.testing.assert_array_equal(helped.model.vector, alone.model.vector)
+    np.testing.assert_array_equal(helped.model.stack.breaks, alone.model.stack.breaks)
+    np.testing.assert_array_equal(helped.frame.axes, alone.frame.axes)

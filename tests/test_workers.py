@@ -13,7 +13,7 @@ import pytest
 from sketchloft import reconstruct
 from sketchloft.exact.body import ExactBody
 from sketchloft.sample import GOALS, FillParams, sample_goal
-from sketchloft.workers import ALONE, Workers, results
+from sketchloft.workers import ALONE, Workers
 
 SCRIBBLED = FillParams(fill="strokes", jitter=0.001, drift=0.003, outliers=0.005)
 
@@ -36,6 +36,11 @@ def _until_free(team: Workers) -> None:
     raise AssertionError("the worker is never free")
 
 
+def _slow_double(seconds: float, number: int) -> int:
+    time.sleep(seconds)
+    return 2 * number
+
+
 def test_a_worker_is_another_process(team: Workers) -> None:
     job = team.begin(os.getpid)
     assert job.elsewhere
@@ -45,10 +50,11 @@ def test_a_worker_is_another_process(team: Workers) -> None:
 
 
 def test_results_come_in_order_whoever_found_them(team: Workers) -> None:
-    asleep = team.begin(time.sleep, 0.5)
-    jobs = [asleep, *[team.begin(pow, 2, k) for k in range(4)]]
-    assert [job.elsewhere for job in jobs] == [True, False, False, False, False]
-    assert results(jobs) == [None, 1, 2, 4, 8]
+    asleep = team.begin(time.sleep, 0.3)
+    assert team.each(pow, [(2, k) for k in range(5)]) == [1, 2, 4, 8, 16]
+    asleep.result()
+    assert team.each(_slow_double, [(0.2, 1), (0.0, 2), (0.3, 3)]) == [2, 4, 6]
+    assert ALONE.each(_slow_double, [(0.0, 1), (0.0, 2)]) == [2, 4]
 
 
 def test_a_result_waits_until_it_is_wanted(team: Workers) -> None:

@@ -7,14 +7,14 @@ import multiprocessing
 import os
 import signal
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 from typing import TYPE_CHECKING, Any, Generic, ParamSpec, TypeVar
 
 if TYPE_CHECKING:
     from multiprocessing.connection import Connection
 
-__all__ = ["ALONE", "Job", "Workers", "results", "workers"]
+__all__ = ["ALONE", "Job", "Workers", "workers"]
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -30,7 +30,7 @@ class Job(Generic[T]):
         self.work = work
         self.worker: _Worker | None = None
         self.found: tuple[T, bool] | None = None
-        """What the worker has sent: a result, and whether there is one."""
+        """The result, and whether the worker that sent it found one."""
 
     @property
     def elsewhere(self) -> bool:
@@ -110,16 +110,35 @@ class Workers:
                 worker.begin(job)
         return job
 
+    def each(self, function: Callable[..., T], parts: Iterable[tuple[Any, ...]], **same: object) -> list[T]:
+        """Do a piece of work for each of some arguments, here and by who is free; the longest come first.
+
+        Parameters
+        ----------
+        function : callable
+            As for `begin`.
+        parts : iterable of tuple
+            Arguments.
+        **same : object
+            Further ones, which all pieces have.
+
+        Returns
+        -------
+        list
+            Results, in the order of the arguments.
+        """
+        jobs = []
+        for part in parts:
+            job = self.begin(partial(function, **same), *part)
+            if not job.elsewhere:
+                job.found = job.work(), True
+            jobs.append(job)
+        return [job.result() for job in jobs]
+
     def stop(self) -> None:
         """End them, whatever they do."""
         for worker in self._workers:
             worker.stop()
-
-
-def results(jobs: list[Job[T]]) -> list[T]:
-    """Results of jobs in their order, those that workers are at waited for last."""
-    found = {k: jobs[k].result() for k in sorted(range(len(jobs)), key=lambda k: jobs[k].elsewhere)}
-    return [found[k] for k in range(len(jobs))]
 
 
 ALONE = Workers(0)

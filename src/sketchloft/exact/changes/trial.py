@@ -137,7 +137,9 @@ def tried(points: Floats, model: ExactModel, change: Change, together: float) ->
     return candidate if worth(near, candidate, together, count) > least else None
 
 
-def fitted(points: Floats, model: ExactModel, change: Change, together: float) -> ExactModel:
+def fitted(
+    points: Floats, model: ExactModel, change: Change, together: float, steps: int = SETTLED
+) -> ExactModel:
     """Fit a changed model around its change, whether it pays or not.
 
     Parameters
@@ -148,10 +150,12 @@ def fitted(points: Floats, model: ExactModel, change: Change, together: float) -
     change : Change
     together : float
         How many of the points go together.
+    steps : int
+        At most this many.
     """
     near = _deciding(points, model, change)
     wide = _with_neighbours(change.model, change.runs)
-    candidate, _, _ = climb(near, change.model, SETTLED, runs=wide, enough=ENOUGH * together)
+    candidate, _, _ = climb(near, change.model, steps, runs=wide, enough=ENOUGH * together)
     return fit_density(points, natural_joins(candidate), 1)
 
 

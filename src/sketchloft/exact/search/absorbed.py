@@ -17,6 +17,8 @@ __all__ = ["without_absorbed"]
 
 SMALL = 0.1
 """Share of the points that a run holds less of if a stroke may be what it is there for."""
+FIRST, PATIENCE = 3, 400.0
+"""Steps of its fit after which a model that is so much worse than the other is given up."""
 HOPELESS = 100.0
 """A model that is so much worse than the other before its strays are left out is given up."""
 
@@ -56,7 +58,10 @@ def _simpler(points: Floats, strays: Strays, together: float) -> Strays | None:
     inner = points[strays.kept]
     best, most = None, worth(inner, strays.model, together, len(points))
     for change in merges(strays.model):
-        candidate = fitted(inner, strays.model, change, together)
+        candidate = fitted(inner, strays.model, change, together, FIRST)
+        if worth(inner, candidate, together, len(points)) < most - PATIENCE:
+            continue
+        candidate = fitted(inner, strays.model, replace(change, model=candidate), together)
         if worth(inner, candidate, together, len(points)) < most - HOPELESS:
             continue
         found = stray_strokes(inner, candidate, together)

@@ -20,7 +20,7 @@ from sketchloft.stack import Run, Wall
 from sketchloft.wall.profile import SplineProfile
 from sketchloft.wall.revolved import Revolved
 from sketchloft.wall.swept import Swept
-from sketchloft.workers import ALONE, Workers, results
+from sketchloft.workers import ALONE, Workers
 
 __all__ = ["resectioned"]
 
@@ -57,9 +57,8 @@ def resectioned(
         )
         if moved and not settled and len(inner) >= FEWEST:
             again.append(j)
-            parts.append((inner, ends))
-    jobs = [workers.begin(segment_run, *part, model.sigma, together, model.density) for part in parts]
-    for j, run in zip(again, results(jobs), strict=True):
+            parts.append((inner, ends, model.sigma, together, model.density))
+    for j, run in zip(again, workers.each(segment_run, parts), strict=True):
         if run is not None and _kinds(run) != _kinds(model.stack.runs[j]):
             change = Change(with_run(model, j, run), range(j, j + 1), free=True)
             model = tried(points, model, change, together) or model

@@ -11,7 +11,7 @@ from sketchloft.exact.model.density import Density
 from sketchloft.exact.model.exact_model import ExactModel, model_of
 from sketchloft.exact.section.segment_walls import segment_run
 from sketchloft.stack import Run, Stack
-from sketchloft.workers import ALONE, Workers, results
+from sketchloft.workers import ALONE, Workers
 
 __all__ = ["first_stack"]
 
@@ -42,14 +42,16 @@ def first_stack(
         inner = points[(points[:, 2] > low + margin) & (points[:, 2] < high - margin)]
         if high - low >= blur and len(inner) >= FEWEST:
             spans.append((low, high))
-            parts.append((inner, (low + margin, high - margin)))
-    jobs = [workers.begin(segment_run, *part, sigma, together, density, rough=rough) for part in parts]
+            parts.append((inner, (low + margin, high - margin), sigma, together, density))
+    longest = sorted(range(len(parts)), key=lambda k: -len(parts[k][0]))
+    found = workers.each(segment_run, [parts[k] for k in longest], rough=rough)
     runs: list[Run] = []
     breaks: list[float] = []
     last = float(cuts[0])
-    for (low, high), found in zip(spans, results(jobs), strict=True):
-        if found is not None:
-            runs.append(found)
+    for k, (low, high) in enumerate(spans):
+        run = found[longest.index(k)]
+        if run is not None:
+            runs.append(run)
             breaks.append((low + last) / 2)
             last = high
     if not runs:

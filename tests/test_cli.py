@@ -1,6 +1,8 @@
 """The command line as a user runs it: results, exit codes, nothing half-written."""
 
 import json
+import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -33,6 +35,41 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def cube(here: Path) -> str:
     np.savetxt(here / "cube.xyz", CUBE)
     return "cube.xyz"
+
+
+@pytest.mark.skipif(os.name != "posix", reason="sends a signal to a process group")
+def test_an_interrupt_ends_the_command_and_who_helps_it(cube: str, here: Path) -> None:
+    begun = subprocess.Popen(
+        [
+            sys.executable,
+            "-c",
+            "from sketchloft.cli import main; main()",
+            "build",
+            cube,
+            "-v",
+            "--workers",
+            "1",
+        ],
+        stderr=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+    assert begun.stderr is not None
+    assert begun.stderr.readline().startswith("read: ")
+    os.killpg(begun.pid, signal.SIGINT)
+    out, said = begun.communicate(timeout=60)  # which waits for whoever holds the pipes
+    assert (begun.returncode, out) == (130, "")
+    assert said.splitlines()[-1] == "sketchloft: interrupted; nothing was written"
+    assert "Traceback" not in said
+    assert not list(here.glob("*.step"))
+
+
+def test_workers_change_no_byte(cube: str, here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for count in ("0", "1"):
+        assert run("build", cube, "-o", f"m{count}.step", "--workers", count, capsys=capsys)[0] == 0
+    assert (here / "m0.step").read_bytes() == (here / "m1.step").read_bytes()
+    assert run("build", cube, "--workers", "-1", capsys=capsys)[0] == 2
 
 
 @both_methods

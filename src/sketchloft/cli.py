@@ -39,7 +39,9 @@ def _application() -> cyclopts.App:
         help_format="plaintext",
         version=__version__,
         result_action="return_value",
+        suppress_keyboard_interrupt=False,
     )
+    app.meta.suppress_keyboard_interrupt = False  # it is said what became of the output
     # Commands are named, not imported: each is loaded when it is called, which keeps --help instant.
     for name, text in COMMANDS.items():
         app.command(f"sketchloft.commands.{name}:{name}", name=name, help=text)
@@ -83,6 +85,12 @@ def _exit_code(arguments: list[str]) -> int:
     except BrokenPipeError:  # the reader of our output went away; that is its business
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except KeyboardInterrupt:
+        return _failed("interrupted; nothing was written", INTERRUPTED)
+    except ImportError as error:
+        if not isinstance(
+            error.__cause__, KeyboardInterrupt
+        ):  # which a library may wrap that is just loading
+            raise
         return _failed("interrupted; nothing was written", INTERRUPTED)
     except MemoryError:
         return _failed("there is not enough memory for this cloud; thin it first", OutputError.exit_code)

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Generic, ParamSpec, TypeVar
 if TYPE_CHECKING:
     from multiprocessing.connection import Connection
 
-__all__ = ["ALONE", "Job", "Workers", "workers"]
+__all__ = ["ALONE", "Job", "Workers", "hire"]
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -146,15 +146,22 @@ ALONE = Workers(0)
 
 
 @contextlib.contextmanager
-def workers() -> Iterator[Workers]:
-    """Have a worker on each core that is to spare, a few at most, until the context ends.
+def hire(count: int | None = None) -> Iterator[Workers]:
+    """Have so many workers until the context ends, or one on each core that is to spare, a few at most.
+
+    Parameters
+    ----------
+    count : int, optional
 
     Notes
     -----
     They import the main module anew, so that a script of whoever calls this needs the usual guard,
     ``if __name__ == "__main__"``. The command line has one.
     """
-    team = Workers(min(_cores() - 1, MOST))
+    try:
+        team = Workers(min(_cores() - 1, MOST) if count is None else count)
+    except OSError:  # where no process may be started
+        team = ALONE
     try:
         yield team
     finally:

@@ -6,7 +6,7 @@ from contextlib import nullcontext
 from pathlib import Path
 from typing import Annotated
 
-from cyclopts import Parameter
+from cyclopts import Parameter, validators
 
 from sketchloft.bodies import BodiesParams, parse_bodies
 from sketchloft.brep.files import check_outputs, write_model
@@ -29,7 +29,7 @@ from sketchloft.shapes.choice import ShapesParams, parse_shapes
 from sketchloft.slice_planes import CentralAxis, SlicePlanesParams, parse_per_slice
 from sketchloft.summary import summary, summary_lines
 from sketchloft.work_points import Working, WorkPointsParams
-from sketchloft.workers import ALONE, workers
+from sketchloft.workers import ALONE, hire
 
 __all__ = ["build"]
 
@@ -80,6 +80,14 @@ def build(
     bodies: Annotated[str, Parameter(help="Number of bodies, or auto.")] = "auto",
     unit: Annotated[Unit, Parameter(help="Unit of the cloud's numbers, and of the model's.")] = "mm",
     report: Annotated[Path | None, Parameter(help="HTML report to write.")] = None,
+    workers: Annotated[
+        int | None,
+        Parameter(
+            validator=validators.Number(gte=0),
+            help="Processes that work beside this one; they change how long it takes, not the model. "
+            "[default: the cores to spare, at most 3]",
+        ),
+    ] = None,
     json: Json = False,
     quiet: Quiet = False,
     verbose: Verbose = False,
@@ -105,7 +113,7 @@ def build(
     searches = method == "exact" and plan is None
     with (
         progress(stages, quiet=quiet, verbose=verbose) as begin,
-        workers() if searches else nullcontext(ALONE) as team,
+        hire(workers) if searches else nullcontext(ALONE) as team,
     ):
         begin("read")
         points = read_cloud(cloud, unit=unit)

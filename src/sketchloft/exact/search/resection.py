@@ -48,14 +48,10 @@ def resectioned(
     workers : Workers, optional
     """
     together, again, parts = start.together, [], []
-    sharp = together > 1 and _noise(points, model) < CLEAR
     for j in range(len(model.stack.runs)):
         inner, ends = _between(points, model, j)
         moved = _moved(model, j, start.cuts, upright, together)
-        settled = all(_plain(wall) for wall in model.stack.runs[j].walls) and (
-            sharp or (together == 1 and misfit(points, model, range(j, j + 1), together) == 0)
-        )
-        if moved and not settled and len(inner) >= FEWEST:
+        if moved and not _settled(points, model, j, together) and len(inner) >= FEWEST:
             again.append(j)
             parts.append((inner, ends, model.sigma, together, model.density))
     for j, run in zip(again, workers.each(segment_run, parts), strict=True):
@@ -75,10 +71,18 @@ def _moved(model: ExactModel, j: int, cuts: Floats, upright: float, together: fl
     return max(leaning, *(float(np.abs(cuts - z).min()) for z in (low, high))) > near
 
 
-def _noise(points: Floats, model: ExactModel) -> float:
-    """Noise that suits a model: strokes leave walls sharp only where these are the right ones."""
-    near = points[beside_walls(points, model, NEAR * model.sigma)]
-    return climb(near, model, STEPS, noise=True)[0].sigma
+def _settled(points: Floats, model: ExactModel, j: int, together: float) -> bool:
+    """Whether there is nothing simpler than the walls of a run, and the points have nothing against them.
+
+    Strokes leave walls sharp only where these are the right ones; a misfit they are too few to show.
+    """
+    if not all(_plain(wall) for wall in model.stack.runs[j].walls):
+        return False
+    if together == 1:
+        return misfit(points, model, range(j, j + 1), together) == 0
+    low, high = model.stack.breaks[[j, j + 1]]
+    beside = beside_walls(points, model, NEAR * model.sigma) & (points[:, 2] > low) & (points[:, 2] < high)
+    return climb(points[beside], model, STEPS, noise=True, runs=range(j, j + 1))[0].sigma < CLEAR
 
 
 def _plain(wall: Wall) -> bool:

@@ -61,6 +61,12 @@ class Found:
     value: float
     misfit: float
 
+    @property
+    def direction(self) -> Floats:
+        """The slicing direction (3,), in the axes of all points."""
+        axis: Floats = (self.turn.T @ self.start.frame.axes)[2]
+        return axis
+
 
 def search(
     start: Start,

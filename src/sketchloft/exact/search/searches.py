@@ -56,8 +56,9 @@ def searched(
 
     Notes
     -----
-    The first search is from the likeliest direction. Only where its end leaves something to wish for, other
-    directions are looked at, which takes longer: their first stacks, a search from the best of these, and
+    The first search is from the likeliest direction. Only where its end leaves something to wish for, more is
+    looked at, which takes longer: the same direction cut more finely, where strokes leave its walls a little
+    blurred; and the first stacks along other directions. Then there is a search from the best of these, and
     others from the next one, where the points have something against its walls or a free loft beside other
     runs hides what they have; and from the next and the sharpest, where strokes leave its walls blurred. Each
     end with a free loft is followed by one without.
@@ -68,8 +69,15 @@ def searched(
     others = (ALONE if _promising(first) else workers).begin(other_starts, points, first, params)
     progress("evidence")
     ends = [look(first)]
-    if _clear(ends[0]):
-        yield from _with_less(ends.pop(), look)
+    if first.together > 1 and ends[0].model.sigma < BLURRED and not _clear(ends[0]):
+        progress("runs")
+        fine = start_along(points, ends[0].direction, candidates, params, fine=True, workers=workers)
+        progress("evidence")
+        ends.append(look(fine))
+    if any(map(_clear, ends)):
+        for end in sorted(ends, key=_value, reverse=True):
+            yield from _with_less(end, look)
+        ends = []
     progress("runs")
     starts = apart([first, *others.result()])
     progress("evidence")

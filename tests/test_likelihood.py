@@ -229,6 +229,17 @@ def test_the_order_of_the_points_is_nothing_to_a_climb() -> None:
         np.testing.assert_allclose(again, points[order] @ rotation, rtol=0, atol=1e-15)
 
 
+@pytest.mark.parametrize("name", [name for name in WALLS if name != "loft"])  # which has farther to go
+def test_a_climb_ends_near_the_top(name: str) -> None:
+    points, model = known(one_run(name))
+    push = SIGMA * np.random.default_rng(1).standard_normal(model.size)
+    off = replace(model, sigma=3 * SIGMA).moved(model.vector + push, BREAKS + [SIGMA, -SIGMA])
+    found, _, _ = climb(points, off, 12, noise=True, strays=True)
+    top, _, _ = climb(points, found, 60, noise=True, strays=True, enough=1e-9)
+    assert value_of(points, off) < value_of(points, found) - 10
+    assert value_of(points, top) < value_of(points, found) + 0.1
+
+
 def test_pieces_that_overlap_and_holes_that_break_through_are_unsound() -> None:
     """Where pieces overlapped, their points would be explained twice."""
 

@@ -1,0 +1,59 @@
+"""Searches: other directions are looked at only where the first end leaves something to wish for."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from sketchloft import PointCloud, reconstruct
+from sketchloft.exact.body import ExactBody
+from sketchloft.exact.search import searches
+from sketchloft.exact.start import choose_start
+from sketchloft.exact.start.start import Start
+from sketchloft.sample import GOALS, FillParams, sample_goal
+
+SCRIBBLED = FillParams(fill="strokes", jitter=0.001, drift=0.003, outliers=0.005)
+
+
+@pytest.fixture
+def looks(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """How many other starts each look at other directions has found."""
+    found: list[int] = []
+    ask = choose_start.other_starts
+
+    def counted(*given: object) -> tuple[Start, ...]:
+        others = ask(*given)  # type: ignore[arg-type]
+        found.append(len(others))
+        return others
+
+    monkeypatch.setattr(searches, "other_starts", counted)
+    return found
+
+
+def _body(cloud: PointCloud) -> ExactBody:
+    body = reconstruct(cloud).bodies[0]
+    assert isinstance(body, ExactBody)
+    return body
+
+
+@pytest.mark.parametrize(
+    ("name", "params"), [("l-shape", FillParams()), ("cone", FillParams()), ("box", SCRIBBLED)]
+)
+def test_a_simple_thing_is_seen_from_its_direction_at_once(
+    name: str, params: FillParams, looks: list[int]
+) -> None:
+    body = _body(sample_goal(GOALS[name], 6000, params, seed=2))
+    assert looks == []
+    assert abs(float(body.vector @ body.frame.direction)) == pytest.approx(1, abs=1e-12)
+
+
+def test_where_a_simpler_stack_may_lie_along_another_direction_that_is_looked_for(looks: list[int]) -> None:
+    body = _body(sample_goal(GOALS["lamp"], 6000, seed=2))
+    assert len(looks) == 1
+    assert body.facts.faces == {"ConicalSurface": 1, "CylindricalSurface": 1, "Plane": 8}
+
+
+def test_the_direction_of_an_end_is_that_of_the_model() -> None:
+    cloud = sample_goal(GOALS["cylinder"], 4000, seed=3)
+    body = _body(cloud)
+    np.testing.assert_allclose(abs(body.vector[2]), 1, atol=1e-4)

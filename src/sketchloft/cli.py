@@ -87,9 +87,7 @@ def _exit_code(arguments: list[str]) -> int:
     except KeyboardInterrupt:
         return _failed("interrupted; nothing was written", INTERRUPTED)
     except ImportError as error:
-        if not isinstance(
-            error.__cause__, KeyboardInterrupt
-        ):  # which a library may wrap that is just loading
+        if not isinstance(error.__cause__, KeyboardInterrupt):  # which a library may wrap while it loads
             raise
         return _failed("interrupted; nothing was written", INTERRUPTED)
     except MemoryError:

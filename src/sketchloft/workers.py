@@ -24,7 +24,7 @@ MOST = 3
 
 
 class Job(Generic[T]):
-    """A piece of work, that a worker is at or that is done here once its result is wanted."""
+    """A piece of work that a worker is at, or that is done here once its result is wanted."""
 
     def __init__(self, work: Callable[[], T]) -> None:
         self.work = work
@@ -111,14 +111,14 @@ class Workers:
         return job
 
     def each(self, function: Callable[..., T], parts: Iterable[tuple[Any, ...]], **same: object) -> list[T]:
-        """Do a piece of work for each of some arguments, here and by who is free; the longest come first.
+        """Do a piece of work for each of some arguments, here and by whoever is free.
 
         Parameters
         ----------
         function : callable
             As for `begin`.
         parts : iterable of tuple
-            Arguments.
+            Arguments; those of the longest pieces had better come first.
         **same : object
             Further ones, which all pieces have.
 

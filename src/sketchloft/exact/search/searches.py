@@ -8,7 +8,7 @@ from functools import partial
 from sketchloft.cloud import Floats
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.search.search import Found, search
-from sketchloft.exact.start.choose_start import CLEAR, apart, other_starts
+from sketchloft.exact.start.choose_start import CLEAR, along, apart, other_starts
 from sketchloft.exact.start.direction import Candidate
 from sketchloft.exact.start.segments import SegmentsParams
 from sketchloft.exact.start.start import Start, plain, start_along
@@ -71,9 +71,9 @@ def searched(
     ends = [look(first)]
     if first.together > 1 and ends[0].model.sigma < BLURRED and not _clear(ends[0]):
         progress("runs")
-        fine = start_along(points, ends[0].direction, candidates, params, fine=True, workers=workers)
+        finer = along(points, ends[0].direction, candidates, params, fine=True, workers=workers)
         progress("evidence")
-        ends.append(look(fine))
+        ends += map(look, finer)
     if any(map(_clear, ends)):
         for end in sorted(ends, key=_value, reverse=True):
             yield from _with_less(end, look)

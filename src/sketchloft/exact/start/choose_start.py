@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from sketchloft.cloud import Floats
+from sketchloft.errors import StageError
 from sketchloft.exact.start.direction import Candidate
 from sketchloft.exact.start.segments import SegmentsParams
 from sketchloft.exact.start.start import Start, start_along
@@ -12,8 +13,9 @@ from sketchloft.exact.start.through_sphere import through_sphere
 from sketchloft.outline.circle import Circle
 from sketchloft.wall.revolved import Revolved
 from sketchloft.wall.swept import Swept
+from sketchloft.workers import ALONE, Workers
 
-__all__ = ["CLEAR", "apart", "other_starts"]
+__all__ = ["CLEAR", "along", "apart", "other_starts"]
 
 CLOSE = 0.03
 """Log likelihood per point by which a direction may be behind the best and yet have the better stack, where
@@ -57,15 +59,15 @@ def other_starts(points: Floats, first: Start, params: SegmentsParams) -> tuple[
     starts = [first, *others(points, first, candidates, params)]
     best = max(starts, key=_value)
     if best.settling[2, 2] < np.cos(TURNED) and not best.plain:
-        starts.append(start_along(points, best.direction, best.candidates, params))
+        starts += along(points, best.direction, best.candidates, params)
         best = max(starts, key=_value)
     balls = (through_sphere(start) for start in sorted(starts, key=_value, reverse=True) if candidates)
     through = next((direction for direction in balls if direction is not None), None)
     if through is not None and all(abs(float(through @ start.direction)) < BESIDE for start in starts):
-        starts.append(start_along(points, through, best.candidates, params))
+        starts += along(points, through, best.candidates, params)
         best = max(starts, key=_value)
     if blurred and not best.plain and best.merged.sigma >= CLEAR:
-        starts.append(start_along(points, best.frame.axes[2], best.candidates, params, fine=True))
+        starts += along(points, best.frame.axes[2], best.candidates, params, fine=True)
     return tuple(starts[1:])
 
 
@@ -76,7 +78,7 @@ def _contenders(points: Floats, first: Start, candidates: Candidates, params: Se
     for k in close[:CONTENDERS]:
         if max([first, *found], key=_value).plain:
             break
-        found.append(start_along(points, candidates[k].vector, _led_by(candidates, k), params))
+        found += along(points, candidates[k].vector, _led_by(candidates, k), params)
     return found
 
 
@@ -98,15 +100,34 @@ def _blurred_contenders(
     if first.merged.sigma < CLEAR:
         return []
     rough = [
-        start_along(points, candidates[k].vector, _led_by(candidates, k), params, rough=True)
+        start
         for k in _unlike(candidates)[: BLURRED_CONTENDERS + 1][1:]
+        for start in along(points, candidates[k].vector, _led_by(candidates, k), params, rough=True)
     ]
     least = max(start.value for start in (first, *rough)) - BEHIND
     likely = apart([start for start in rough if start.value > least])
-    return [
-        start if _round(start) else start_along(points, start.candidates[0].vector, start.candidates, params)
-        for start in likely[:FULL]
-    ]
+    found: list[Start] = []
+    for start in likely[:FULL]:
+        order = start.candidates
+        found += [start] if _round(start) else along(points, order[0].vector, order, params)
+    return found
+
+
+def along(
+    points: Floats,
+    vector: Floats,
+    candidates: Candidates,
+    params: SegmentsParams,
+    *,
+    fine: bool = False,
+    rough: bool = False,
+    workers: Workers = ALONE,
+) -> list[Start]:
+    """The first stack along a further direction (`start_along`); none where it has no section."""
+    try:
+        return [start_along(points, vector, candidates, params, fine=fine, rough=rough, workers=workers)]
+    except StageError:
+        return []
 
 
 def _round(start: Start) -> bool:

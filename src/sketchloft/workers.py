@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import contextlib
+import itertools
 import multiprocessing
 import os
 import signal
 import threading
+from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 from typing import TYPE_CHECKING, Any, Generic, ParamSpec, TypeVar
@@ -37,6 +39,15 @@ class Job(Generic[T]):
         """Whether a worker has it."""
         return self.worker is not None
 
+    @property
+    def waits(self) -> bool:
+        """Whether there is a result still to come."""
+        return self.worker is not None and self.found is None and not self.worker.done()
+
+    def do(self) -> None:
+        """Do the work here and now."""
+        self.found = self.work(), True
+
     def result(self) -> T:
         """Wait for the result; what the work raises is raised here."""
         if self.worker is not None and self.found is None:
@@ -58,11 +69,15 @@ class _Worker:
         there.close()
         self._job: Job[Any] | None = None
 
-    def free(self) -> bool:
-        """Whether work would be begun at once."""
+    def done(self) -> bool:
+        """Whether there is nothing to wait for."""
         if self._job is not None and self._here.poll():
             self.wait()
-        return self._job is None and self._process.is_alive()
+        return self._job is None
+
+    def free(self) -> bool:
+        """Whether work would be begun at once."""
+        return self.done() and self._process.is_alive()
 
     def begin(self, job: Job[Any]) -> None:
         self._here.send(job.work)
@@ -104,10 +119,7 @@ class Workers:
             That can be pickled.
         """
         job = Job(partial(function, *args, **kwargs))
-        worker = next((worker for worker in self._workers if worker.free()), None)
-        if worker is not None:
-            with contextlib.suppress(OSError):  # it may be killed just now
-                worker.begin(job)
+        self._give(job)
         return job
 
     def each(self, function: Callable[..., T], parts: Iterable[tuple[Any, ...]], **same: object) -> list[T]:
@@ -131,9 +143,53 @@ class Workers:
         for part in parts:
             job = self.begin(partial(function, **same), *part)
             if not job.elsewhere:
-                job.found = job.work(), True
+                job.do()
             jobs.append(job)
         return [job.result() for job in jobs]
+
+    def first(
+        self, function: Callable[..., T | None], parts: Iterable[tuple[Any, ...]]
+    ) -> tuple[int, T] | None:
+        """Find the first of some pieces of work that has a result, in the order of the pieces.
+
+        Parameters
+        ----------
+        function : callable
+            As for `begin`.
+        parts : iterable of tuple
+            Arguments; a few after the one that is found are tried for nothing.
+
+        Returns
+        -------
+        tuple of int and object, or None
+            Which piece it is, and its result.
+        """
+        jobs = (Job(partial(function, *part)) for part in parts)
+        ahead: deque[Job[T | None]] = deque()
+        for place in itertools.count():
+            job = ahead.popleft() if ahead else next(jobs, None)
+            if job is None:
+                break
+            while self._free() and (other := next(jobs, None)) is not None:
+                self._give(other)
+                ahead.append(other)
+            while job.waits and (other := next(jobs, None)) is not None:
+                other.do()
+                ahead.append(other)
+            found = job.result()
+            if found is not None:
+                return place, found
+        return None
+
+    def _free(self) -> _Worker | None:
+        return next((worker for worker in self._workers if worker.free()), None)
+
+    def _give(self, job: Job[Any]) -> None:
+        """Give a job to a worker that is free, if one is."""
+        worker = self._free()
+        if worker is not None:
+            with contextlib.suppress(OSError):  # it may be killed just now
+                worker.begin(job)
 
     def stop(self) -> None:
         """End them, whatever they do."""

@@ -16,6 +16,7 @@ from sketchloft.exact.changes.rings import rings
 from sketchloft.exact.changes.trial import Change, tried
 from sketchloft.exact.changes.worth import worth
 from sketchloft.exact.model.exact_model import ExactModel, Join
+from sketchloft.workers import ALONE, Workers
 
 __all__ = ["improved", "merged"]
 
@@ -28,9 +29,12 @@ RETURNS = 2
 
 Form = tuple[tuple[Join, ...], tuple[tuple[tuple[str, int], ...], ...]]
 Changes = Callable[[ExactModel], Iterator[Change]]
+Key = tuple[object, ...]
 
 
-def improved(points: Floats, model: ExactModel, together: float, *, lofts: bool = True) -> ExactModel:
+def improved(
+    points: Floats, model: ExactModel, together: float, *, lofts: bool = True, workers: Workers = ALONE
+) -> ExactModel:
     """Change runs, one at a time, as long as it pays.
 
     Parameters
@@ -42,23 +46,24 @@ def improved(points: Floats, model: ExactModel, together: float, *, lofts: bool 
         How many of the points go together.
     lofts : bool
         Whether free lofts are tried.
+    workers : Workers, optional
 
     Notes
     -----
     A change that pays may bar the way to a better one: what is merged first is no chain that a free profile
     could stand in for. So both ways are gone where there is one, and the better end is taken.
     """
-    found = _changed(points, model, together, lofts=lofts)
+    found = _changed(points, model, together, lofts=lofts, workers=workers)
     if len(found.stack.runs) == 1:
         return found
     smooth = splined(points, model, together, CHAIN)
     if smooth is model:
         return found
-    other = _changed(points, smooth, together, lofts=lofts)
+    other = _changed(points, smooth, together, lofts=lofts, workers=workers)
     return max(found, other, key=lambda end: worth(points, end, together, len(points)))
 
 
-def merged(points: Floats, model: ExactModel, together: float) -> ExactModel:
+def merged(points: Floats, model: ExactModel, together: float, workers: Workers = ALONE) -> ExactModel:
     """Leave runs to their neighbours, one at a time, as long as it pays.
 
     Parameters
@@ -68,23 +73,29 @@ def merged(points: Floats, model: ExactModel, together: float) -> ExactModel:
         Fitted.
     together : float
         How many of the points go together.
+    workers : Workers, optional
     """
-    return _through(points, model, together, merges, set(), again=True)
+    return _through(points, model, together, merges, set(), again=True, workers=workers)
 
 
-def _changed(points: Floats, model: ExactModel, together: float, *, lofts: bool) -> ExactModel:
+def _changed(
+    points: Floats, model: ExactModel, together: float, *, lofts: bool, workers: Workers
+) -> ExactModel:
     """Look through all kinds of changes as long as one pays."""
-    failed: set[tuple[object, ...]] = set()
+    failed: set[Key] = set()
     settled: ExactModel | None = None
+
+    def through(model: ExactModel, changes: Changes, *, again: bool = False) -> ExactModel:
+        return _through(points, model, together, changes, failed, again=again, workers=workers)
+
     for _ in range(ROUNDS):
         before = model
-        model = _through(points, model, together, merges, failed, again=True)
-        model = _through(points, model, together, fillings, failed)
-        model = _through(points, model, together, rings, failed)
-        model = _through(points, model, together, closings, failed)
+        model = through(model, merges, again=True)
+        for changes in (fillings, rings, closings):
+            model = through(model, changes)
         model = splined(points, model, together)
-        model = _through(points, model, together, lambda m: splits(points, m, together), failed)
-        model = _through(points, model, together, swaps, failed)
+        model = through(model, lambda m: splits(points, m, together))
+        model = through(model, swaps)
         if model is settled:
             break
         model = with_poles_that_pay(points, model, together)
@@ -108,9 +119,10 @@ def _through(
     model: ExactModel,
     together: float,
     changes: Changes,
-    failed: set[tuple[object, ...]],
+    failed: set[Key],
     *,
     again: bool = False,
+    workers: Workers,
 ) -> ExactModel:
     """Look through a kind of changes but those that failed from the same start; keep those that fail now.
 
@@ -119,15 +131,23 @@ def _through(
     """
     place, left = 0, Counter[Form]()
     while True:
-        for k, change in enumerate(changes(model)):
-            if k < place or change.key in failed or left[_form(change.model)] == RETURNS:
-                continue
-            better = tried(points, model, change, together)
-            if better is not None:
-                left[_form(model)] += 1
-                model, place = better, 0 if again else k
-                break
-            failed.add(change.key)
-            place = k + 1
-        else:
+        seen: list[tuple[int, Key]] = []
+        fresh = _fresh(changes(model), seen, place, failed, left)
+        found = workers.first(tried, ((points, model, change, together) for change in fresh))
+        failed.update(key for _, key in seen[: None if found is None else found[0]])
+        if found is None:
             return model
+        left[_form(model)] += 1
+        model, place = found[1], 0 if again else seen[found[0]][0]
+
+
+def _fresh(
+    changes: Iterator[Change], seen: list[tuple[int, Key]], place: int, failed: set[Key], left: Counter[Form]
+) -> Iterator[Change]:
+    """Changes from a place on that have not failed; note where they are, and their keys, as they are seen."""
+    known = set(failed)
+    for k, change in enumerate(changes):
+        if k >= place and change.key not in known and left[_form(change.model)] < RETURNS:
+            known.add(change.key)
+            seen.append((k, change.key))
+            yield change

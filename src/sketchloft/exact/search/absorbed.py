@@ -12,6 +12,7 @@ from sketchloft.exact.changes.trial import fitted
 from sketchloft.exact.changes.worth import worth
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.search.stray_strokes import Strays, stray_strokes
+from sketchloft.workers import ALONE, Workers
 
 __all__ = ["without_absorbed"]
 
@@ -23,7 +24,7 @@ HOPELESS = 100.0
 """A model that is so much worse than the other before its strays are left out is given up."""
 
 
-def without_absorbed(points: Floats, model: ExactModel, together: float) -> Strays:
+def without_absorbed(points: Floats, model: ExactModel, together: float, workers: Workers = ALONE) -> Strays:
     """Leave out stray strokes, and with them, as long as it pays, small runs that hold little else.
 
     Parameters
@@ -33,15 +34,16 @@ def without_absorbed(points: Floats, model: ExactModel, together: float) -> Stra
         Fitted.
     together : float
         How many of the points go together.
+    workers : Workers, optional
 
     Notes
     -----
     A stroke beside a narrow part of the thing is no stray to a model that has a run of its own for it, and
     without that run it is to be explained. Only both together pay.
     """
-    strays = stray_strokes(points, model, together)
+    strays = stray_strokes(points, model, together, workers)
     while together > 1 and _holds_few(points[strays.kept], strays.model):
-        better = _simpler(points, strays, together)
+        better = _simpler(points, strays, together, workers)
         if better is None:
             break
         strays = better
@@ -53,7 +55,7 @@ def _holds_few(points: Floats, model: ExactModel) -> bool:
     return len(counts) > 1 and bool((counts < SMALL * len(points)).any())
 
 
-def _simpler(points: Floats, strays: Strays, together: float) -> Strays | None:
+def _simpler(points: Floats, strays: Strays, together: float, workers: Workers) -> Strays | None:
     """A run less, with a stroke less, the best of all that pay."""
     inner = points[strays.kept]
     best, most = None, worth(inner, strays.model, together, len(points))
@@ -64,7 +66,7 @@ def _simpler(points: Floats, strays: Strays, together: float) -> Strays | None:
         candidate = fitted(inner, strays.model, replace(change, model=candidate), together)
         if worth(inner, candidate, together, len(points)) < most - HOPELESS:
             continue
-        found = stray_strokes(inner, candidate, together)
+        found = stray_strokes(inner, candidate, together, workers)
         value = worth(inner[found.kept], found.model, together, len(points)) + found.worth
         if value > most and not found.kept.all():
             best, most = found, value

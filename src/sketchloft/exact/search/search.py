@@ -97,20 +97,20 @@ def search(
     turn = np.eye(3)
     if tilt:
         model, turn = upright(sample, model, together)
-    model = improved(sample @ turn, model, together, lofts=lofts)
+    model = improved(sample @ turn, model, together, lofts=lofts, workers=workers)
     if tilt:
-        model, rotation = upended(sample @ turn, start.merged, model, together, lofts=lofts)
+        model, rotation = upended(sample @ turn, start.merged, model, together, lofts=lofts, workers=workers)
         turn = turn @ rotation
         model, rotation = upright(sample @ turn, model, together)
         turn = turn @ rotation
     again = resectioned(sample @ turn, model, start, (start.settling @ turn)[2, 2], workers)
     if again is not model:
-        model = improved(sample @ turn, again, together, lofts=lofts)
-    strays = without_absorbed(sample @ turn, model, together)
+        model = improved(sample @ turn, again, together, lofts=lofts, workers=workers)
+    strays = without_absorbed(sample @ turn, model, together, workers)
     points, model = start.points @ start.settling, strays.model
     if not strays.kept.all():
         points, sample = points[strays.among(points, sample)], sample[strays.kept]
-        model = improved(sample @ turn, model, together, lofts=lofts)
+        model = improved(sample @ turn, model, together, lofts=lofts, workers=workers)
     model, _, rotation = coaxial(sample @ turn, model, together, tilt=tilt)
     turn = turn @ rotation
     progress("fit")
@@ -118,7 +118,7 @@ def search(
     model = thicker(model, every)
     model, points, rotation = sharpened(points @ turn, model, tilt=tilt)
     turn = turn @ rotation
-    model = merged(sample @ turn, thicker(model, 1 / every), together)
+    model = merged(sample @ turn, thicker(model, 1 / every), together, workers)
     model = thicker(model, every)
     model = thicker(without_gap(model, least_noise(model, len(points))), 1 / every)
     model = flush(sample @ turn, model, together)

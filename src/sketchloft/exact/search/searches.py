@@ -15,7 +15,7 @@ from sketchloft.exact.start.start import Start, plain, start_along
 from sketchloft.wall.lofted import Lofted
 from sketchloft.wall.profile import SplineProfile
 from sketchloft.wall.revolved import Revolved
-from sketchloft.workers import ALONE, Workers
+from sketchloft.workers import Workers
 
 __all__ = ["searched"]
 
@@ -66,7 +66,6 @@ def searched(
     look = partial(search, tilt=bool(candidates), progress=progress, workers=workers)
     progress("runs")
     first = start_along(points, vector, candidates, params, workers=workers)
-    others = (ALONE if _promising(first) else workers).begin(other_starts, points, first, params)
     progress("evidence")
     ends = [look(first)]
     if first.together > 1 and ends[0].model.sigma < BLURRED and not _clear(ends[0]):
@@ -79,7 +78,7 @@ def searched(
             yield from _with_less(end, look)
         ends = []
     progress("runs")
-    starts = apart([first, *others.result()])
+    starts = apart([first, *other_starts(points, first, params)])
     progress("evidence")
     if starts[0] is not first:
         ends.append(look(starts[0]))
@@ -98,11 +97,6 @@ def _with_less(end: Found, look: Callable[..., Found]) -> Iterator[Found]:
     yield end
     if any(isinstance(wall, Lofted) for run in end.model.stack.runs for wall in run.walls):
         yield look(end.start, lofts=False)
-
-
-def _promising(start: Start) -> bool:
-    """Whether the search from a first stack can be expected to end clear."""
-    return _simple(start.merged) or (start.together > 1 and start.merged.sigma < CLEAR)
 
 
 def _clear(end: Found) -> bool:

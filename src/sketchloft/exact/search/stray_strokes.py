@@ -14,6 +14,7 @@ from sketchloft.exact.fit.climb import climb, fit_density
 from sketchloft.exact.fit.likelihood import beside_walls, losses
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.soundness import sound
+from sketchloft.workers import ALONE, Workers
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
@@ -71,7 +72,7 @@ def counted(model: ExactModel, points: int) -> ExactModel:
     return replace(model, stray=model.stray + points / model.space)
 
 
-def stray_strokes(points: Floats, model: ExactModel, together: float) -> Strays:
+def stray_strokes(points: Floats, model: ExactModel, together: float, workers: Workers = ALONE) -> Strays:
     """Leave out strokes, one at a time, as long as the model of the others gains more than the odds.
 
     Parameters
@@ -81,6 +82,7 @@ def stray_strokes(points: Floats, model: ExactModel, together: float) -> Strays:
         Fitted.
     together : float
         How many of the points go together; where it is one there are no strokes.
+    workers : Workers, optional
 
     Notes
     -----
@@ -96,7 +98,8 @@ def stray_strokes(points: Floats, model: ExactModel, together: float) -> Strays:
     while together > 1 and sound(left) and (~kept).mean() < MOST:
         inner = np.flatnonzero(kept)
         some = points[inner]
-        tried = [_without(some, left, row, together) for row in _suspects(some, left, together)]
+        parts = [(some, left, row, together) for row in _suspects(some, left, together)]
+        tried = workers.each(_without, parts)
         least = worth(some, fit_density(some, left, 1), together, len(some)) + ODDS
         value, model, row = max(tried, key=lambda trial: trial[0], default=(-np.inf, left, inner))
         if value <= least:

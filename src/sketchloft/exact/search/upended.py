@@ -20,6 +20,7 @@ from sketchloft.outline.candidates import rectangle_of
 from sketchloft.outline.placed_polygons import Rectangle, RoundedRectangle
 from sketchloft.stack import Run, Stack, Wall
 from sketchloft.wall.swept import Swept
+from sketchloft.workers import ALONE, Workers
 
 __all__ = ["upended"]
 
@@ -31,7 +32,13 @@ HINT = 0.5
 
 
 def upended(
-    points: Floats, first: ExactModel, model: ExactModel, together: float, *, lofts: bool
+    points: Floats,
+    first: ExactModel,
+    model: ExactModel,
+    together: float,
+    *,
+    lofts: bool,
+    workers: Workers = ALONE,
 ) -> tuple[ExactModel, Floats]:
     """Stand a box on another face where fillets that are seen from there explain more.
 
@@ -46,6 +53,7 @@ def upended(
         How many of the points go together.
     lofts : bool
         Whether free lofts are tried.
+    workers : Workers, optional
 
     Returns
     -------
@@ -64,7 +72,7 @@ def upended(
         turned = points @ rotation
         least = value_of(turned, other) + HINT * together
         if max(value_of(turned, with_run(other, 0, Run((wall,)))) for wall in _rounded(other)) > least:
-            found = improved(turned, other, together, lofts=lofts)
+            found = improved(turned, other, together, lofts=lofts, workers=workers)
             if best is model:
                 best = fit_density(points, model)
             if _worth(turned, found, together) > _worth(points @ turn, best, together):

@@ -149,7 +149,7 @@ def start_along(
     if first is None:
         raise StageError("found no section that the points fill; draw more of the inside", stage="runs")
     settled, sample, settling = _settled(sample, first, tilt=bool(candidates))
-    lean = merged(sample, settled, together)
+    lean = merged(sample, settled, together, workers)
     return Start(candidates, frame, local, sample, cuts, together, first, settled, lean, settling)
 
 

@@ -8,6 +8,7 @@ from sketchloft.cloud import Floats
 from sketchloft.exact.changes.misfit import HOPE, misfit
 from sketchloft.exact.changes.profile_start import profile_start
 from sketchloft.exact.changes.trial import FREE_GAIN, Change, free_gain, tried
+from sketchloft.exact.fit.clear import clear
 from sketchloft.exact.fit.schwarz import price
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.joins import sole_profile
@@ -72,10 +73,13 @@ def _has_spline(model: ExactModel, runs: range) -> bool:
 
 
 def _right(points: Floats, model: ExactModel, runs: range, together: float) -> bool:
-    """Whether a line or an arc is all that independent points ask for."""
+    """Whether a line or an arc is all that the points ask for."""
     wall = sole_profile(model.stack.runs[runs.start])
-    alone = len(runs) == 1 and wall is not None and not isinstance(wall.profile, SplineProfile)
-    return alone and together == 1 and HOPE * misfit(points, model, runs, together) <= FREE_GAIN
+    if len(runs) > 1 or wall is None or isinstance(wall.profile, SplineProfile):
+        return False
+    if together > 1:
+        return clear(points, model, runs)
+    return HOPE * misfit(points, model, runs, together) <= FREE_GAIN
 
 
 def _continuous(model: ExactModel, k: int) -> bool:

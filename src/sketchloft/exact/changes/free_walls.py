@@ -11,6 +11,7 @@ from sketchloft.exact.changes.ruled_start import ruled_start
 from sketchloft.exact.changes.square_to_round import square_to_round
 from sketchloft.exact.changes.trial import Change, tried_free
 from sketchloft.exact.changes.worth import PER_RUN
+from sketchloft.exact.fit.clear import clear
 from sketchloft.exact.fit.schwarz import price
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.surgery import with_runs
@@ -29,8 +30,6 @@ CHEAP = 2.5
 one that tells of more than chance brings the wall nearer to the truth (Akaike's criterion asks for 1)."""
 SIMPLEST = 10
 """Parameters of a ruled wall at least: those of a rectangle and a circle."""
-CLEAR = 0.0042
-"""Noise, as a share of the size, up to which the walls of a cloud of strokes are looked at for a misfit."""
 MUCH = 10.0
 """`HOPE` for a loft."""
 LOFTS = (((12, 2), (12, 4), (18, 4), (24, 6)), ((16, 1), (24, 1), (24, 3)))
@@ -66,11 +65,10 @@ def ruled(points: Floats, model: ExactModel, together: float) -> ExactModel:
         revolved = all(isinstance(wall, Revolved) for wall in walls)
         if revolved or any(isinstance(wall, (Ruled, Filleted, Lofted)) for wall in walls):
             continue
-        # Strokes lie too unevenly beside the walls for a misfit to show; that they are blurred does.
-        blurred = together > 1 and model.sigma > CLEAR
         more = SIMPLEST - sum(len(wall.vector) for wall in walls)
         more = max(more, 0) if len(walls) == 1 else more
         least = GAIN + price(more - PER_RUN * (len(walls) - 1), len(points), together)
+        blurred = together > 1 and not clear(points, model, chain)
         if not blurred and HOPE * misfit(points, model, chain, together) <= least:
             continue
         ends = float(model.stack.breaks[chain.start]), float(model.stack.breaks[chain.stop])

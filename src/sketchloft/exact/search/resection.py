@@ -7,13 +7,11 @@ import numpy as np
 from sketchloft.cloud import Floats
 from sketchloft.exact.changes.misfit import misfit
 from sketchloft.exact.changes.trial import Change, tried
-from sketchloft.exact.fit.climb import climb
-from sketchloft.exact.fit.likelihood import beside_walls
+from sketchloft.exact.fit.clear import clear
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.surgery import with_run
 from sketchloft.exact.section.rarity import COMMON
 from sketchloft.exact.section.segment_walls import segment_run
-from sketchloft.exact.start.choose_start import CLEAR
 from sketchloft.exact.start.first_stack import FEWEST
 from sketchloft.exact.start.start import Start
 from sketchloft.stack import Run, Wall
@@ -26,8 +24,6 @@ __all__ = ["resectioned"]
 
 MOVED = 1.5
 """Noise deviations that a break or a wall has moved by since its section was found that count."""
-NEAR, STEPS = 6.0, 6
-"""Noise deviations from the walls within which points tell how sharp these are, and steps of that fit."""
 BESIDE = 2.0
 """Noise deviations beside a break within which points belong to neither run."""
 
@@ -72,17 +68,11 @@ def _moved(model: ExactModel, j: int, cuts: Floats, upright: float, together: fl
 
 
 def _settled(points: Floats, model: ExactModel, j: int, together: float) -> bool:
-    """Whether there is nothing simpler than the walls of a run, and the points have nothing against them.
-
-    Strokes leave walls sharp only where these are the right ones; a misfit they are too few to show.
-    """
+    """Whether there is nothing simpler than the walls of a run, and the points have nothing against them."""
     if not all(_plain(wall) for wall in model.stack.runs[j].walls):
         return False
-    if together == 1:
-        return misfit(points, model, range(j, j + 1), together) == 0
-    low, high = model.stack.breaks[[j, j + 1]]
-    beside = beside_walls(points, model, NEAR * model.sigma) & (points[:, 2] > low) & (points[:, 2] < high)
-    return climb(points[beside], model, STEPS, noise=True, runs=range(j, j + 1))[0].sigma < CLEAR
+    runs = range(j, j + 1)
+    return misfit(points, model, runs, together) == 0 if together == 1 else clear(points, model, runs)
 
 
 def _plain(wall: Wall) -> bool:

@@ -6,9 +6,10 @@ from collections.abc import Callable, Iterator
 from functools import partial
 
 from sketchloft.cloud import Floats
+from sketchloft.exact.fit.clear import CLEAR
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.search.search import Found, search
-from sketchloft.exact.start.choose_start import CLEAR, along, apart, other_starts
+from sketchloft.exact.start.choose_start import along, apart, other_starts
 from sketchloft.exact.start.direction import Candidate
 from sketchloft.exact.start.segments import SegmentsParams
 from sketchloft.exact.start.start import Start, plain, start_along

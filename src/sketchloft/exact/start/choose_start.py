@@ -6,6 +6,7 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.errors import StageError
+from sketchloft.exact.fit.clear import CLEAR
 from sketchloft.exact.start.direction import Candidate
 from sketchloft.exact.start.segments import SegmentsParams
 from sketchloft.exact.start.start import Start, start_along
@@ -15,7 +16,7 @@ from sketchloft.wall.revolved import Revolved
 from sketchloft.wall.swept import Swept
 from sketchloft.workers import ALONE, Workers
 
-__all__ = ["CLEAR", "along", "apart", "other_starts"]
+__all__ = ["along", "apart", "other_starts"]
 
 CLOSE = 0.03
 """Log likelihood per point by which a direction may be behind the best and yet have the better stack, where
@@ -32,8 +33,6 @@ FULL = 2
 """How many of these are kept, and looked at again in full where that may tell more."""
 BEHIND = 40.0
 """Log likelihood by which a rough first stack may be behind the best one and yet be worth a full one."""
-CLEAR = 0.004
-"""Noise, as a share of the size, that a cloud of strokes has at least where its walls are wrong."""
 TURNED = 0.04
 """Angle in radians by which the fit of a first stack has turned that is worth another."""
 

@@ -57,6 +57,35 @@ def test_results_come_in_order_whoever_found_them(team: Workers) -> None:
     assert ALONE.each(_slow_double, [(0.0, 1), (0.0, 2)]) == [2, 4]
 
 
+def _large(number: int, least: int, seconds: float = 0.0) -> int | None:
+    time.sleep(seconds)
+    return 10 * number if number >= least else None
+
+
+def test_the_first_that_has_a_result_is_the_first_in_order_not_in_time(team: Workers) -> None:
+    for workers in (ALONE, team):
+        assert workers.first(_large, [(1, 3), (2, 3), (3, 3), (4, 3), (5, 3)]) == (2, 30)
+        assert workers.first(_large, [(5, 3, 0.3), (4, 3), (3, 3)]) == (0, 50)
+        assert workers.first(_large, [(1, 3), (3, 3, 0.3), (4, 3)]) == (1, 30)
+        assert workers.first(_large, [(1, 3), (2, 3)]) is None
+        assert workers.first(_large, []) is None
+
+
+def test_pieces_are_not_asked_for_long_before_they_are_begun(team: Workers) -> None:
+    asked: list[int] = []
+
+    def parts() -> Iterator[tuple[int, int]]:
+        for number in range(100):
+            asked.append(number)
+            yield number, 3
+
+    assert ALONE.first(_large, parts()) == (3, 30)
+    assert asked == [0, 1, 2, 3]
+    asked.clear()
+    assert team.first(_large, parts()) == (3, 30)
+    assert len(asked) < 100
+
+
 def test_a_result_waits_until_it_is_wanted(team: Workers) -> None:
     first = team.begin(os.getpid)
     _until_free(team)

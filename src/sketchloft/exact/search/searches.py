@@ -79,7 +79,7 @@ def searched(
             yield from _with_less(end, look)
         ends = []
     progress("runs")
-    starts = apart([first, *other_starts(points, first, params)])
+    starts = apart([first, *other_starts(points, first, params, workers)])
     progress("evidence")
     if starts[0] is not first:
         ends.append(look(starts[0]))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import chain
+
 import numpy as np
 
 from sketchloft.cloud import Floats
@@ -39,7 +41,9 @@ TURNED = 0.04
 Candidates = tuple[Candidate, ...]
 
 
-def other_starts(points: Floats, first: Start, params: SegmentsParams) -> tuple[Start, ...]:
+def other_starts(
+    points: Floats, first: Start, params: SegmentsParams, workers: Workers = ALONE
+) -> tuple[Start, ...]:
     """Find the first stacks along other directions that explain the points about as well.
 
     Parameters
@@ -48,6 +52,7 @@ def other_starts(points: Floats, first: Start, params: SegmentsParams) -> tuple[
         As for the first.
     first : Start
     params : SegmentsParams
+    workers : Workers, optional
 
     Returns
     -------
@@ -55,29 +60,30 @@ def other_starts(points: Floats, first: Start, params: SegmentsParams) -> tuple[
     """
     candidates, blurred = first.candidates, first.together > 1
     others = _blurred_contenders if blurred else _contenders
-    starts = [first, *others(points, first, candidates, params)]
+    starts = [first, *others(points, first, params, workers)]
     best = max(starts, key=_value)
     if best.settling[2, 2] < np.cos(TURNED) and not best.plain:
-        starts += along(points, best.direction, best.candidates, params)
+        starts += along(points, best.direction, best.candidates, params, workers=workers)
         best = max(starts, key=_value)
     balls = (through_sphere(start) for start in sorted(starts, key=_value, reverse=True) if candidates)
     through = next((direction for direction in balls if direction is not None), None)
     if through is not None and all(abs(float(through @ start.direction)) < BESIDE for start in starts):
-        starts += along(points, through, best.candidates, params)
+        starts += along(points, through, best.candidates, params, workers=workers)
         best = max(starts, key=_value)
     if blurred and not best.plain and best.merged.sigma >= CLEAR:
-        starts += along(points, best.frame.axes[2], best.candidates, params, fine=True)
+        starts += along(points, best.frame.axes[2], best.candidates, params, fine=True, workers=workers)
     return tuple(starts[1:])
 
 
-def _contenders(points: Floats, first: Start, candidates: Candidates, params: SegmentsParams) -> list[Start]:
+def _contenders(points: Floats, first: Start, params: SegmentsParams, workers: Workers) -> list[Start]:
     """First stacks along the directions next to the best, until one is plain."""
     found: list[Start] = []
+    candidates = first.candidates
     close = [k for k in _unlike(candidates)[1:] if _close(candidates[k], candidates[0])]
     for k in close[:CONTENDERS]:
         if max([first, *found], key=_value).plain:
             break
-        found += along(points, candidates[k].vector, _led_by(candidates, k), params)
+        found += along(points, candidates[k].vector, _led_by(candidates, k), params, workers=workers)
     return found
 
 
@@ -87,7 +93,7 @@ def _close(candidate: Candidate, best: Candidate) -> bool:
 
 
 def _blurred_contenders(
-    points: Floats, first: Start, candidates: Candidates, params: SegmentsParams
+    points: Floats, first: Start, params: SegmentsParams, workers: Workers
 ) -> list[Start]:
     """First stacks of a cloud of strokes along other directions than the best, unless that is clear.
 
@@ -98,18 +104,15 @@ def _blurred_contenders(
     """
     if first.merged.sigma < CLEAR:
         return []
-    rough = [
-        start
-        for k in _unlike(candidates)[: BLURRED_CONTENDERS + 1][1:]
-        for start in along(points, candidates[k].vector, _led_by(candidates, k), params, rough=True)
-    ]
+    candidates = first.candidates
+    contenders = _unlike(candidates)[: BLURRED_CONTENDERS + 1][1:]
+    parts = [(points, candidates[k].vector, _led_by(candidates, k), params) for k in contenders]
+    rough = list(chain(*workers.each(along, parts, rough=True)))
     least = max(start.value for start in (first, *rough)) - BEHIND
     likely = apart([start for start in rough if start.value > least])
-    found: list[Start] = []
-    for start in likely[:FULL]:
-        order = start.candidates
-        found += [start] if _round(start) else along(points, order[0].vector, order, params)
-    return found
+    orders = [start.candidates for start in likely[:FULL] if not _round(start)]
+    full = workers.each(along, [(points, order[0].vector, order, params) for order in orders])
+    return [*filter(_round, likely[:FULL]), *chain(*full)]
 
 
 def along(

@@ -16,6 +16,12 @@ from sketchloft.remarks import ranges
 RNG = np.random.default_rng(0)
 CUBE = RNG.random((3000, 3))
 PAPER = ["--method", "paper"]
+INTERRUPTIBLE = """
+import signal
+from sketchloft.cli import main
+signal.signal(signal.SIGINT, signal.default_int_handler)  # what runs in the background may ignore interrupts
+main()
+"""
 both_methods = pytest.mark.parametrize("method", ["exact", "paper"])
 
 
@@ -40,16 +46,7 @@ def cube(here: Path) -> str:
 @pytest.mark.skipif(os.name != "posix", reason="sends a signal to a process group")
 def test_an_interrupt_ends_the_command_and_who_helps_it(cube: str, here: Path) -> None:
     begun = subprocess.Popen(
-        [
-            sys.executable,
-            "-c",
-            "from sketchloft.cli import main; main()",
-            "build",
-            cube,
-            "-v",
-            "--workers",
-            "1",
-        ],
+        [sys.executable, "-c", INTERRUPTIBLE, "build", cube, "-v", "--workers", "1"],
         stderr=subprocess.PIPE,
         stdout=subprocess.PIPE,
         text=True,

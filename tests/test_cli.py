@@ -190,6 +190,7 @@ def test_settings_that_the_method_has_no_use_for_are_named(
 
 
 def test_a_folder_is_no_cloud(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("build", ".", capsys=capsys)[0] == 3
     code, _, said = run("build", str(here), capsys=capsys)
     assert (code, "is a folder, expected a file" in said) == (3, True)
 

@@ -105,7 +105,8 @@ def build(
         LoftParams(loft),
         _plan(plan, save_plan, method, axis, unit),
     )
-    outputs = output or [cloud.with_suffix(".step")]
+    # A folder such as "." has no name to go by, and is told to be none of a cloud when it is read.
+    outputs = output or [cloud.with_suffix(".step") if cloud.name else cloud / "cloud.step"]
     check_outputs(outputs)
     if report is not None:
         check_writable(report)

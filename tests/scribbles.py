@@ -8,12 +8,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sketchloft.cloud import Floats
+from sketchloft.sample import FillParams
 from sketchloft.sample.strokes import wander
 
 Inside = Callable[[Floats], NDArray[np.bool_]]
 LENGTH = 60
 STEP = 0.01
 DRIFT = 0.003
+SCRIBBLED = FillParams(fill="strokes", jitter=0.001, drift=DRIFT, outliers=0.005)
+"""The same in a goal, with strokes that stray."""
 
 
 def scribbled(inside: Inside, low: Floats, high: Floats, n: int, seed: int) -> Floats:

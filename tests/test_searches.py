@@ -5,14 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from scribbles import SCRIBBLED
 from sketchloft import PointCloud, reconstruct
 from sketchloft.exact.body import ExactBody
 from sketchloft.exact.search import searches
 from sketchloft.exact.start import choose_start
 from sketchloft.exact.start.start import Start
 from sketchloft.sample import GOALS, FillParams, sample_goal
-
-SCRIBBLED = FillParams(fill="strokes", jitter=0.001, drift=0.003, outliers=0.005)
 
 
 @pytest.fixture

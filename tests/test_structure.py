@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from scribbles import SCRIBBLED
 from sketchloft import Params, PointCloud, reconstruct
 from sketchloft.cloud import Floats
 from sketchloft.direction import Axis, DirectionParams
@@ -28,7 +29,7 @@ from sketchloft.outline.polygons import Polygon
 from sketchloft.outline.rectilinear import rectilinear_of
 from sketchloft.outline.star import Star
 from sketchloft.robust_size import middle_and_size
-from sketchloft.sample import GOALS, FillParams, sample_goal
+from sketchloft.sample import GOALS, sample_goal
 from sketchloft.stack import Run, Stack, Wall
 from sketchloft.stack_volume import stack_volume
 from sketchloft.wall.profile import ArcProfile, LineProfile
@@ -37,7 +38,6 @@ from sketchloft.wall.ruled import Ruled
 from sketchloft.wall.swept import Swept
 
 AXIS = np.zeros(2)
-STROKES = FillParams(fill="strokes", jitter=0.001, drift=0.003, outliers=0.005)
 N = 10_000
 
 
@@ -304,5 +304,5 @@ def test_a_triangle_that_turns_is_seen_along_its_axis(seed: int) -> None:
 )
 def test_scribbles_give_the_same_faces(name: str, faces: dict[str, int], least: int) -> None:
     """At least as often as said: a few strokes of four scribbles leave some sections open to doubt."""
-    bodies = [body_of(sample_goal(GOALS[name], N, STROKES, seed=seed).points) for seed in range(1, 5)]
+    bodies = [body_of(sample_goal(GOALS[name], N, SCRIBBLED, seed=seed).points) for seed in range(1, 5)]
     assert sum(body.facts.faces == faces for body in bodies) >= least

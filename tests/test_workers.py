@@ -10,12 +10,11 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 
+from scribbles import SCRIBBLED
 from sketchloft import reconstruct
 from sketchloft.exact.body import ExactBody
 from sketchloft.sample import GOALS, FillParams, sample_goal
 from sketchloft.workers import ALONE, Workers
-
-SCRIBBLED = FillParams(fill="strokes", jitter=0.001, drift=0.003, outliers=0.005)
 
 
 @pytest.fixture(scope="module")

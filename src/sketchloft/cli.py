@@ -84,10 +84,9 @@ def _exit_code(arguments: list[str]) -> int:
         return _failed(" ".join(str(error).split()), UsageError.exit_code)
     except BrokenPipeError:  # the reader of our output went away; that is its business
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    except KeyboardInterrupt:
-        return _failed("interrupted; nothing was written", INTERRUPTED)
-    except ImportError as error:
-        if not isinstance(error.__cause__, KeyboardInterrupt):  # which a library may wrap while it loads
+    except (KeyboardInterrupt, ImportError) as error:
+        # A library that is just loading may wrap the interrupt.
+        if not isinstance(error, KeyboardInterrupt) and not isinstance(error.__cause__, KeyboardInterrupt):
             raise
         return _failed("interrupted; nothing was written", INTERRUPTED)
     except MemoryError:

@@ -75,6 +75,11 @@ class Stack:
         for run, (low, high) in zip(self.runs, pairwise(self.breaks.tolist()), strict=True):
             yield run, low, high
 
+    @property
+    def walls(self) -> tuple[Wall, ...]:
+        """Those of all runs, from the first to the last."""
+        return tuple(wall for run in self.runs for wall in run.walls)
+
     def with_walls(self, change: Callable[[Wall], Wall]) -> Stack:
         """Return the stack with each wall changed."""
         runs = tuple(replace(run, walls=tuple(change(wall) for wall in run.walls)) for run in self.runs)
@@ -88,7 +93,7 @@ def section_boundary(wall: Wall, height: float, count: int) -> WallBoundary:
 
 def spanned(stack: Stack) -> Stack:
     """Let those walls that do begin and end at the breaks of their runs."""
-    if not any(isinstance(wall, SPANNING) for run in stack.runs for wall in run.walls):
+    if not any(isinstance(wall, SPANNING) for wall in stack.walls):
         return stack
     runs = tuple(
         replace(run, walls=tuple(w.between(low, high) if isinstance(w, SPANNING) else w for w in run.walls))

@@ -141,7 +141,7 @@ class Workers:
         """
         jobs = []
         for part in parts:
-            job = self.begin(partial(function, **same), *part)
+            job = self.begin(function, *part, **same)
             if not job.elsewhere:
                 job.do()
             jobs.append(job)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from contextlib import nullcontext
 from pathlib import Path
 from typing import Annotated
 
@@ -29,7 +28,7 @@ from sketchloft.shapes.choice import ShapesParams, parse_shapes
 from sketchloft.slice_planes import CentralAxis, SlicePlanesParams, parse_per_slice
 from sketchloft.summary import summary, summary_lines
 from sketchloft.work_points import Working, WorkPointsParams
-from sketchloft.workers import ALONE, hire
+from sketchloft.workers import hire
 
 __all__ = ["build"]
 
@@ -114,7 +113,7 @@ def build(
     searches = method == "exact" and plan is None
     with (
         progress(stages, quiet=quiet, verbose=verbose) as begin,
-        hire(workers) if searches else nullcontext(ALONE) as team,
+        hire(workers if searches else 0) as team,
     ):
         begin("read")
         points = read_cloud(cloud, unit=unit)

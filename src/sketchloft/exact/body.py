@@ -127,7 +127,7 @@ def exact_body(
     vector = candidates[0].vector if candidates else np.asarray(axis, dtype=float)
     refused: list[ModelError] = []
     for found in searched(unit, vector, candidates, params.segments, progress=progress, workers=workers):
-        start, frame = found.start, Frame(found.turn.T @ found.start.frame.axes)
+        start, frame = found.start, found.frame
         progress("solid")
         try:
             solid, facts = built_stack(found.model.stack, origin + middle, frame.axes, scale)

@@ -75,7 +75,7 @@ class Change:
     @property
     def key(self) -> tuple[object, ...]:
         """The same for changes that start from the same numbers."""
-        kinds = tuple(wall.kind for run in self.model.stack.runs for wall in run.walls)
+        kinds = tuple(wall.kind for wall in self.model.stack.walls)
         return kinds, self.runs, self.model.vector.tobytes(), self.model.stack.breaks.tobytes()
 
 

@@ -45,11 +45,11 @@ def resectioned(
     """
     together, again, parts = start.together, [], []
     for j in range(len(model.stack.runs)):
-        inner, ends = _between(points, model, j)
-        moved = _moved(model, j, start.cuts, upright, together)
-        if moved and not _settled(points, model, j, together) and len(inner) >= FEWEST:
-            again.append(j)
-            parts.append((inner, ends, model.sigma, together, model.density))
+        if _moved(model, j, start.cuts, upright, together) and not _settled(points, model, j, together):
+            inner, ends = _between(points, model, j)
+            if len(inner) >= FEWEST:
+                again.append(j)
+                parts.append((inner, ends, model.sigma, together, model.density))
     for j, run in zip(again, workers.each(segment_run, parts), strict=True):
         if run is not None and _kinds(run) != _kinds(model.stack.runs[j]):
             change = Change(with_run(model, j, run), range(j, j + 1), free=True)

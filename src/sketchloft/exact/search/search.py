@@ -26,6 +26,7 @@ from sketchloft.exact.search.stray_strokes import counted
 from sketchloft.exact.search.upended import upended
 from sketchloft.exact.search.upright import upright
 from sketchloft.exact.start.start import BESIDE, Start
+from sketchloft.frame import Frame
 from sketchloft.workers import ALONE, Workers
 
 __all__ = ["Found", "search"]
@@ -62,10 +63,9 @@ class Found:
     misfit: float
 
     @property
-    def direction(self) -> Floats:
-        """The slicing direction (3,), in the axes of all points."""
-        axis: Floats = (self.turn.T @ self.start.frame.axes)[2]
-        return axis
+    def frame(self) -> Frame:
+        """Of the model, in the axes that the frame of the start is in."""
+        return Frame(self.turn.T @ self.start.frame.axes)
 
 
 def search(

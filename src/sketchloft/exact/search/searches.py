@@ -71,7 +71,7 @@ def searched(
     ends = [look(first)]
     if first.together > 1 and ends[0].model.sigma < BLURRED and not _clear(ends[0]):
         progress("runs")
-        finer = along(points, ends[0].direction, candidates, params, fine=True, workers=workers)
+        finer = along(points, ends[0].frame.direction, candidates, params, fine=True, workers=workers)
         progress("evidence")
         ends += map(look, finer)
     if any(map(_clear, ends)):
@@ -96,7 +96,7 @@ def searched(
 def _with_less(end: Found, look: Callable[..., Found]) -> Iterator[Found]:
     """Yield an end, and after one with a free loft where the search ends without."""
     yield end
-    if any(isinstance(wall, Lofted) for run in end.model.stack.runs for wall in run.walls):
+    if _has_loft(end.model):
         yield look(end.start, lofts=False)
 
 
@@ -109,9 +109,9 @@ def _clear(end: Found) -> bool:
 
 def _simple(model: ExactModel) -> bool:
     """Whether all is one run of equal sections, or lines and arcs about one axis."""
-    walls = [wall for run in model.stack.runs for wall in run.walls]
     return plain(model) or all(
-        isinstance(wall, Revolved) and not isinstance(wall.profile, SplineProfile) for wall in walls
+        isinstance(wall, Revolved) and not isinstance(wall.profile, SplineProfile)
+        for wall in model.stack.walls
     )
 
 
@@ -129,8 +129,11 @@ def _further(end: Found, others: list[Start]) -> list[Start]:
 
 def _patched(model: ExactModel) -> bool:
     """Whether a free loft lies beside other runs, as it may where a simpler thing is seen from its side."""
-    runs = model.stack.runs
-    return len(runs) > 1 and any(isinstance(wall, Lofted) for run in runs for wall in run.walls)
+    return len(model.stack.runs) > 1 and _has_loft(model)
+
+
+def _has_loft(model: ExactModel) -> bool:
+    return any(isinstance(wall, Lofted) for wall in model.stack.walls)
 
 
 def _value(end: Found) -> float:

@@ -134,10 +134,9 @@ def along(
 
 def _round(start: Start) -> bool:
     """Whether all sections are circles, so that strokes that are this blurred tell of no corners."""
-    walls = [wall for run in start.merged.stack.runs for wall in run.walls]
     return all(
         isinstance(wall, Revolved) or (isinstance(wall, Swept) and isinstance(wall.outline, Circle))
-        for wall in walls
+        for wall in start.merged.stack.walls
     )
 
 

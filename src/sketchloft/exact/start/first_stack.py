@@ -44,12 +44,14 @@ def first_stack(
             spans.append((low, high))
             parts.append((inner, (low + margin, high - margin), sigma, together, density))
     longest = sorted(range(len(parts)), key=lambda k: -len(parts[k][0]))
-    found = workers.each(segment_run, [parts[k] for k in longest], rough=rough)
+    found = dict(
+        zip(longest, workers.each(segment_run, [parts[k] for k in longest], rough=rough), strict=True)
+    )
     runs: list[Run] = []
     breaks: list[float] = []
     last = float(cuts[0])
     for k, (low, high) in enumerate(spans):
-        run = found[longest.index(k)]
+        run = found[k]
         if run is not None:
             runs.append(run)
             breaks.append((low + last) / 2)

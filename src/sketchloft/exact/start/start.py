@@ -155,12 +155,10 @@ def start_along(
 
 def plain(model: ExactModel) -> bool:
     """Whether there is one run, and all its sections are the same: nothing simpler can be found."""
-    runs = model.stack.runs
-    walls = [wall for run in runs for wall in run.walls]
-    moving = any(
-        not isinstance(wall, Revolved) and (not isinstance(wall, Swept) or wall.free) for wall in walls
+    return len(model.stack.runs) == 1 and all(
+        isinstance(wall, Revolved) or (isinstance(wall, Swept) and not wall.free)
+        for wall in model.stack.walls
     )
-    return len(runs) == 1 and not moving
 
 
 def directions(points: Floats, params: SegmentsParams) -> tuple[Candidate, ...]:

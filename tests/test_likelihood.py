@@ -277,7 +277,7 @@ def test_a_slit_that_nobody_draws_is_seen() -> None:
         return Stack(np.array([-0.3, 0.3]), (Run((Swept(Polygon(vertices), 0.0, ORIGIN, ORIGIN),)),))
 
     assert slits(known(prism(0.05))[1]) == 0
-    assert slits(known(prism(0.01))[1]) == 1
+    assert 1 < slits(known(prism(0.01))[1]) < 2  # a thinner one counts more, lest one be widened for nothing
 
 
 def test_points_in_any_order_have_the_same_likelihood() -> None:

@@ -12,7 +12,7 @@ from sketchloft.cloud import Floats
 from sketchloft.outline.chain import chords
 from sketchloft.outline.chain_outline import ChainOutline
 
-__all__ = ["LineArc", "Polygon", "chain_outline", "corner_areas", "has_slit", "odd_corners"]
+__all__ = ["LineArc", "Polygon", "chain_outline", "corner_areas", "odd_corners", "thin_cuts"]
 
 PLAIN = np.radians([0.0, 90.0, -90.0])
 """Turns at the end of an arc that a designer draws."""
@@ -123,6 +123,10 @@ def odd_corners(outline: LineArc) -> int:
     return int((beside_arc & (away > ASKEW)).sum())
 
 
-def has_slit(vertices: Floats, bulges: Floats) -> bool:
-    """Whether a chain cuts inwards as thinly as nobody draws, where by chance there are no points."""
-    return bool((_turns(vertices, bulges) < NARROWEST - np.pi).any())
+def thin_cuts(vertices: Floats, bulges: Floats) -> float:
+    """How often a chain cuts inwards as thinly as nobody draws, where by chance there are no points.
+
+    A cut as narrow as `NARROWEST` counts once, one of no width twice, one of twice the width not at all.
+    """
+    widths = np.pi + _turns(vertices, bulges)
+    return float(np.maximum(2 - widths / NARROWEST, 0.0).sum())

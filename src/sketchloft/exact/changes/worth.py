@@ -20,6 +20,8 @@ SLIT = 40.0
 """What a slit must gain: by chance there are no points in some that are thin enough."""
 PER_RUN = 2
 """Parameters that a run is priced as, beside those of its walls."""
+DIRECTION = 2
+"""Parameters of the direction, which a sphere alone has not."""
 SHORTNESS = 12.0
 """What a run of no length at all must gain."""
 
@@ -29,5 +31,10 @@ def worth(points: Floats, model: ExactModel, together: float, count: int) -> flo
     lengths = np.diff(model.stack.breaks)
     short = np.maximum(1 - lengths / (SHORT * model.sigma), 0.0)
     odd = SHORTNESS * float(short.sum()) + DETACHED * detached(model) + SLIT * slits(model)
-    parameters = model.parameters + PER_RUN * len(lengths)
+    parameters = model.parameters + PER_RUN * len(lengths) + (0 if _is_ball(model) else DIRECTION)
     return value_of(points, model) / together - (price(parameters, count, together) + odd)
+
+
+def _is_ball(model: ExactModel) -> bool:
+    """Whether all is one whole sphere."""
+    return model.joins == ("pole", "pole") and [wall.kind for wall in model.stack.walls] == ["sphere"]

@@ -11,7 +11,7 @@ from sketchloft.cloud import Floats
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.joins import poles
 from sketchloft.outline.chain_outline import ChainOutline
-from sketchloft.outline.polygons import LineArc, Polygon, has_slit
+from sketchloft.outline.polygons import LineArc, Polygon, thin_cuts
 from sketchloft.outline.rectilinear import RectilinearPolygon
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import SplineLoop
@@ -97,10 +97,10 @@ def _ends_within(wall: Wall, model: ExactModel, j: int) -> bool:
     return bool((j > 0 and below < low) or (j + 1 < len(model.stack.runs) and above > high))
 
 
-def slits(model: ExactModel) -> int:
-    """Number of walls whose outline has a slit, as a search may pass through and no designer draws."""
-    outlines = [w.outline for run in model.stack.runs for w in run.walls if isinstance(w, Swept)]
-    return sum(isinstance(outline, ChainOutline) and has_slit(*outline.chain()) for outline in outlines)
+def slits(model: ExactModel) -> float:
+    """Number of slits in outlines, as a search may pass through and no designer draws, by their thinness."""
+    outlines = [wall.outline for wall in model.stack.walls if isinstance(wall, Swept)]
+    return sum(thin_cuts(*outline.chain()) for outline in outlines if isinstance(outline, ChainOutline))
 
 
 def _closes(wall: Wall) -> bool:

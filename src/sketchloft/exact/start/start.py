@@ -29,8 +29,8 @@ __all__ = ["BESIDE", "ROOM", "SEARCH_POINTS", "Start", "directions", "plain", "s
 
 START = 0.006
 """Noise that the search begins with, as a share of the size."""
-ROOM = 1.25
-"""Volume that strays are taken to come from, in that of the box around the points."""
+ROOM = 1.5
+"""Volume that strays are taken to come from, in that of the points' convex hull, the same from all sides."""
 SEARCH_POINTS = 12_000
 """The search looks at no more points; the fit looks at all."""
 DIGITS = 6
@@ -122,6 +122,8 @@ def start_along(
     StageError
         If no section is found, or the points are on a skin.
     """
+    from scipy.spatial import ConvexHull  # noqa: PLC0415
+
     frame = frame_along(vector, points)
     local = np.round(frame.to_local(points), DIGITS)
     sample = sampled(local)
@@ -134,7 +136,7 @@ def start_along(
         )
     density = inside_density(sample, grid, together)
     cuts = segments(kept, params, clump(together) if fine else together)
-    space = ROOM * float(np.prod(np.ptp(sample, axis=0)))
+    space = ROOM * float(ConvexHull(sample).volume)
     first = first_stack(
         kept,
         cuts,

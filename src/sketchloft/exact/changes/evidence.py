@@ -22,7 +22,7 @@ __all__ = ["improved", "merged"]
 
 CHAIN = 3
 """Runs that merging may hide from a free profile in their place."""
-ROUNDS = 2
+ROUNDS = 3
 """How often all changes are looked through at most."""
 RETURNS = 2
 """How often a model may be left for another before it is not gone back to."""

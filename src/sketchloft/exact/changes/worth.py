@@ -9,6 +9,8 @@ from sketchloft.exact.fit.likelihood import value_of
 from sketchloft.exact.fit.schwarz import price
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.soundness import detached, slits
+from sketchloft.stack import Wall
+from sketchloft.wall.swept import Swept
 
 __all__ = ["PER_RUN", "worth"]
 
@@ -18,6 +20,8 @@ DETACHED = 300.0
 """What a wall must gain that does not reach the run beside it."""
 SLIT = 40.0
 """What a slit must gain: by chance there are no points in some that are thin enough."""
+LEANING = 4.0
+"""Log odds against each way in which a wall is not straight and upright: by chance many are not by a hair."""
 PER_RUN = 2
 """Parameters that a run is priced as, beside those of its walls."""
 DIRECTION = 2
@@ -31,6 +35,7 @@ def worth(points: Floats, model: ExactModel, together: float, count: int) -> flo
     lengths = np.diff(model.stack.breaks)
     short = np.maximum(1 - lengths / (SHORT * model.sigma), 0.0)
     odd = SHORTNESS * float(short.sum()) + DETACHED * detached(model) + SLIT * slits(model)
+    odd += LEANING * sum(map(_leanings, model.stack.walls))
     parameters = model.parameters + PER_RUN * len(lengths) + (0 if _is_ball(model) else DIRECTION)
     return value_of(points, model) / together - (price(parameters, count, together) + odd)
 
@@ -38,3 +43,8 @@ def worth(points: Floats, model: ExactModel, together: float, count: int) -> flo
 def _is_ball(model: ExactModel) -> bool:
     """Whether all is one whole sphere."""
     return model.joins == ("pole", "pole") and [wall.kind for wall in model.stack.walls] == ["sphere"]
+
+
+def _leanings(wall: Wall) -> int:
+    """In how many ways a wall is not straight and upright that others of its kind are."""
+    return len(wall.free) if isinstance(wall, Swept) else int(wall.kind == "cone")

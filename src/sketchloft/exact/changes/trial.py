@@ -32,6 +32,8 @@ SETTLED = 12
 """Steps after which the noise of a model is the one that suits it."""
 ENOUGH = 0.05
 """Log likelihood of independent points that a step gains for there to be another."""
+FAR = 300.0
+"""A change that is so much worse before the first step is given up."""
 HOPELESS = 40.0
 """A change that is still so much worse after the first few steps is given up."""
 HOPE = 2.0
@@ -122,18 +124,22 @@ def tried(points: Floats, model: ExactModel, change: Change, together: float) ->
     if not len(near):
         return None
     count = len(points)
+    wide = _with_neighbours(candidate, runs)
     least = worth(near, model, together, count) + change.handicap
-    if change.nested and HOPE * promise(near, candidate) / together < least - worth(
-        near, candidate, together, count
-    ):
+    value = worth(near, candidate, together, count)
+    if least - value > min(HOPE * promise(near, candidate, wide) / together, FAR):
         return None
     for steps in STEPS:
-        candidate, _, _ = climb(
-            near, candidate, steps, runs=_with_neighbours(candidate, runs), enough=ENOUGH * together
-        )
-        if worth(near, candidate, together, count) < least - HOPELESS:
+        candidate, _, _ = climb(near, candidate, steps, runs=wide, enough=ENOUGH * together)
+        if not worth(near, candidate, together, count) > least - HOPELESS:
             return None
     candidate = natural_joins(candidate)
+    if not worth(near, candidate, together, count) > least:
+        return None
+    # What the model would gain by the same steps is not to the credit of the change.
+    before = _before(model, candidate, runs)
+    model, _, _ = climb(near, model, sum(STEPS), runs=before, enough=ENOUGH * together)
+    least = worth(near, model, together, count) + change.handicap
     return candidate if worth(near, candidate, together, count) > least else None
 
 
@@ -181,29 +187,37 @@ def tried_free(
         return worth(inner, model, together, count) + others
 
     wide = _with_neighbours(candidate, runs)
-    before = range(wide.start, wide.stop + len(model.stack.runs) - len(candidate.stack.runs))
     model = fit_density(points, model, 1)
-    candidate, _, _ = climb(_beside(near, candidate), candidate, STEPS[0], runs=wide, enough=enough)
-    gain = value(candidate) - value(model) - change.handicap
-    if gain < -PATIENCE:
+    least = value(model) + change.handicap
+    gain = value(candidate) - least
+    if gain + HOPE * promise(near, candidate, wide) / together < 0:
         return None, gain
-    model, _, _ = climb(near, model, SETTLED, runs=before, noise=True, most=MOST_NOISE, enough=enough)
-    least = value(fit_density(points, model, 1)) + change.handicap
-    for steps in (*STEPS, SETTLED):
-        candidate = fit_density(points, candidate, 1)
+    for k, steps in enumerate((STEPS[0], *STEPS, SETTLED)):
+        if k:
+            candidate = fit_density(points, candidate, 1)
         candidate, _, _ = climb(
-            _beside(near, candidate), candidate, steps, runs=wide, noise=True, most=MOST_NOISE, enough=enough
+            _beside(near, candidate), candidate, steps, runs=wide, noise=k > 0, most=MOST_NOISE, enough=enough
         )
         gain = value(candidate) - least
         if gain < -PATIENCE:
             return None, gain
     candidate = natural_joins(candidate)
     gain = value(candidate) - least
+    if gain > 0:
+        before = _before(model, candidate, runs)
+        model, _, _ = climb(near, model, SETTLED, runs=before, noise=True, most=MOST_NOISE, enough=enough)
+        gain = value(candidate) - value(fit_density(points, model, 1)) - change.handicap
     return replace(candidate, sigma=sigma) if gain > 0 else None, gain
 
 
 def _with_neighbours(model: ExactModel, runs: range) -> range:
     return range(max(runs.start - 1, 0), min(runs.stop + 1, len(model.stack.runs)))
+
+
+def _before(model: ExactModel, candidate: ExactModel, runs: range) -> range:
+    """What the changed runs and their neighbours were before."""
+    wide = _with_neighbours(candidate, runs)
+    return range(wide.start, wide.stop + len(model.stack.runs) - len(candidate.stack.runs))
 
 
 def _beside(points: Floats, model: ExactModel) -> Floats:

@@ -115,18 +115,21 @@ def climb(
     return model, points @ turn if tilt else points, turn
 
 
-def promise(points: Floats, model: ExactModel) -> float:
-    """Log likelihood that the walls would gain by moving, as its slopes say (score test).
+def promise(points: Floats, model: ExactModel, runs: range) -> float:
+    """Log likelihood that the walls of some runs would gain by moving, as its slopes say (score test).
 
     Parameters
     ----------
     points : (n, 3) float array
     model : ExactModel
+    runs : range
+        As for `climb`.
     """
     now = evaluate(points, model)
     if not np.isfinite(now.value):
         return 0.0
-    index = np.flatnonzero(_free(model, tilt=False, noise=False, strays=False))
+    free = _free(model, tilt=False, noise=False, strays=False) & _of_runs(model, runs)
+    index = np.flatnonzero(free)
     information = now.derivatives.information[np.ix_(index, index)]
     score = now.derivatives.score[index]
     ridge = 1e-9 * max(float(np.diag(information).max(initial=0.0)), 1e-300) * np.eye(len(index))

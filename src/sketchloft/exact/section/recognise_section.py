@@ -22,7 +22,7 @@ from sketchloft.exact.section.further_outlines import (
 )
 from sketchloft.exact.section.rarity import rarity
 from sketchloft.exact.section.section_contours import contours
-from sketchloft.outline.candidates import circle_of, ellipse_of, rectangle_of, spline_of
+from sketchloft.outline.candidates import circle_of, ellipse_of, rectangle_like, rectangle_of, spline_of
 from sketchloft.outline.outline import Outline
 from sketchloft.ring import ring_length
 from sketchloft.shapes.spline import resampled
@@ -47,6 +47,8 @@ LATTICE = 40
 WAVES = np.arange(2, 13)
 EVEN = 4.0
 """Power of a wave around a circle that chance exceeds once in exp(4) times."""
+TELLING = 12.0
+"""Independent points beside a circle at least, for their evenness to tell anything."""
 
 
 @dataclass(frozen=True)
@@ -109,8 +111,11 @@ def _best(points: Floats, ring: Floats, blur: float, together: float, *, hole: b
     free = attempt(spline_of(ring, STIFF))
     circle = attempt(circle_of(ring))
     ellipse = attempt(ellipse_of(ring))
-    if circle > max(free, ellipse) and together == 1 and _even(near, tried[1][1], blur):
-        return tried[1][1]
+    if circle > max(free, ellipse) and _even(near, tried[1][1], blur, together):
+        # Strokes fill the corners of a rectangle less evenly than the rest.
+        squares = [] if together == 1 else [rectangle_of(ring), rectangle_like(ellipse_of(ring))]
+        if circle > max(map(attempt, squares), default=-np.inf):
+            return tried[1][1]
     if rough:
         attempt(rectangle_of(ring))
         return likeliest(tried)
@@ -126,19 +131,19 @@ def _holds(outline: Outline, places: Floats, *, hole: bool) -> bool:
     return not len(places) or bool((depth < 0).mean() <= LOST)
 
 
-def _even(near: Floats, outline: Outline, blur: float) -> bool:
-    """Whether independent points just inside and outside an outline lie evenly around it, as around a circle.
+def _even(near: Floats, outline: Outline, blur: float, together: float) -> bool:
+    """Whether points just inside and outside an outline lie evenly around it, as around a circle.
 
     Notes
     -----
     Corners and flats show in the angles of the points beside the outline, whose Fourier coefficients
-    have unit variance by chance (Rayleigh's test).
+    have unit variance by chance (Rayleigh's test); of points that go together, that much more.
     """
     foot = outline.foot(near)
     arms = near[np.abs(foot.distance) < blur] - outline.boundary(24).points.mean(axis=0)
     angles = np.arctan2(arms[:, 1], arms[:, 0])
     powers = np.abs(np.exp(1j * WAVES[:, None] * angles).sum(axis=1)) ** 2 / max(len(angles), 1)
-    return bool((powers < EVEN).all())
+    return len(angles) > TELLING * together and bool((powers < EVEN * together).all())
 
 
 def _beside(points: Floats, ring: Floats, width: float, *, hole: bool) -> tuple[Floats, Floats, float]:

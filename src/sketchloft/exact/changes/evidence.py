@@ -56,7 +56,7 @@ def improved(
     found = _changed(points, model, together, lofts=lofts, workers=workers)
     if len(found.stack.runs) == 1:
         return found
-    smooth = splined(points, model, together, CHAIN)
+    smooth = splined(points, model, together, CHAIN, workers)
     if smooth is model:
         return found
     other = _changed(points, smooth, together, lofts=lofts, workers=workers)
@@ -93,7 +93,7 @@ def _changed(
         model = through(model, merges, again=True)
         for changes in (fillings, rings, closings):
             model = through(model, changes)
-        model = splined(points, model, together)
+        model = splined(points, model, together, workers=workers)
         model = through(model, lambda m: splits(points, m, together))
         model = through(model, swaps)
         if model is settled:
@@ -101,7 +101,7 @@ def _changed(
         model = with_poles_that_pay(points, model, together)
         if lofts:
             model = filleted(points, model, together)
-            model = lofted(points, ruled(points, model, together), together)
+            model = lofted(points, ruled(points, model, together, workers), together)
         if model is before:
             break
         settled = model

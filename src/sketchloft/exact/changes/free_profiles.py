@@ -16,6 +16,7 @@ from sketchloft.exact.model.surgery import with_runs
 from sketchloft.stack import Run
 from sketchloft.wall.profile import SplineProfile
 from sketchloft.wall.revolved import Revolved, radius_at
+from sketchloft.workers import ALONE, Workers
 
 __all__ = ["splined"]
 
@@ -27,7 +28,9 @@ little too free (Akaike's criterion); where there are many, strokes lead some of
 """
 
 
-def splined(points: Floats, model: ExactModel, together: float, fewest: int = 1) -> ExactModel:
+def splined(
+    points: Floats, model: ExactModel, together: float, fewest: int = 1, workers: Workers = ALONE
+) -> ExactModel:
     """One free profile for a chain of so many revolved runs or more, with as many spans as pay.
 
     References
@@ -44,26 +47,41 @@ def splined(points: Floats, model: ExactModel, together: float, fewest: int = 1)
         if stop - start < max(fewest, 1) or _right(points, model, range(start, stop), together):
             start = max(stop, start + 1)
             continue
-        tangents = model.joins[start + 1 : stop].count("tangent")
-        entry = 0.0
-        if not _has_spline(model, range(start, stop)):
-            entry = free_gain(stop - start, tangents, len(points), together)
-        best: ExactModel | None = None
-        for spans, each in SPANS.items():
-            source, last = (model, stop) if best is None else (best, start + 1)
-            wall = _spline_through(points, source, start, last, spans)
-            change = with_runs(source, start, last - 1, Run((wall,)))
-            more = change.parameters - source.parameters
-            handicap = entry if best is None else each * more - price(more, len(points), together)
-            better = tried(
-                points, source, Change(change, range(start, start + 1), handicap, free=True), together
-            )
-            if better is None and (best is not None or stop - start == 1):
-                break
-            best = better or best
-        model = best or model
-        start = start + 1 if best is not None else max(stop, start + 1)
+        better = _best_profile(points, model, range(start, stop), together, workers)
+        start = stop if better is None else start + 1
+        model = better or model
     return model
+
+
+def _best_profile(
+    points: Floats, model: ExactModel, runs: range, together: float, workers: Workers
+) -> ExactModel | None:
+    """The model with a free profile in the place of some runs, of the fewest spans that pay, or more."""
+    entry = 0.0
+    if not _has_spline(model, runs):
+        tangents = model.joins[runs.start + 1 : runs.stop].count("tangent")
+        entry = free_gain(len(runs), tangents, len(points), together)
+    one, sizes = range(runs.start, runs.start + 1), list(SPANS.items())
+
+    def with_spline(source: ExactModel, runs: range, spans: int) -> ExactModel:
+        wall = _spline_through(points, source, runs.start, runs.stop, spans)
+        return with_runs(source, runs.start, runs.stop - 1, Run((wall,)))
+
+    firsts = sizes if len(runs) > 1 else sizes[:1]
+    changes = (Change(with_spline(model, runs, spans), one, entry, free=True) for spans, _ in firsts)
+    found = workers.first(tried, ((points, model, change, together) for change in changes))
+    if found is None:
+        return None
+    place, best = found
+    for spans, each in sizes[place + 1 :]:
+        change = with_spline(best, one, spans)
+        more = change.parameters - best.parameters
+        handicap = each * more - price(more, len(points), together)
+        better = tried(points, best, Change(change, one, handicap, free=True), together)
+        if better is None:
+            break
+        best = better
+    return best
 
 
 def _has_spline(model: ExactModel, runs: range) -> bool:

@@ -9,17 +9,20 @@ from sketchloft.exact.changes.loft_start import loft_start
 from sketchloft.exact.changes.misfit import HOPE, misfit
 from sketchloft.exact.changes.ruled_start import ruled_start
 from sketchloft.exact.changes.square_to_round import square_to_round
-from sketchloft.exact.changes.trial import Change, tried_free
+from sketchloft.exact.changes.trial import BESIDE, BEYOND, BLURRED, Change, tried_free
 from sketchloft.exact.changes.worth import PER_RUN
 from sketchloft.exact.fit.clear import clear
+from sketchloft.exact.fit.climb import promise
+from sketchloft.exact.fit.likelihood import beside_walls
 from sketchloft.exact.fit.schwarz import price
 from sketchloft.exact.model.exact_model import ExactModel
-from sketchloft.exact.model.surgery import with_runs
+from sketchloft.exact.model.surgery import with_runs, with_split
 from sketchloft.stack import Run
 from sketchloft.wall.filleted import Filleted
 from sketchloft.wall.lofted import Lofted
 from sketchloft.wall.revolved import Revolved
 from sketchloft.wall.ruled import Ruled
+from sketchloft.workers import ALONE, Workers
 
 __all__ = ["lofted", "ruled", "smooth_chains"]
 
@@ -58,29 +61,49 @@ def lofted(points: Floats, model: ExactModel, together: float) -> ExactModel:
     return model
 
 
-def ruled(points: Floats, model: ExactModel, together: float) -> ExactModel:
+def ruled(points: Floats, model: ExactModel, together: float, workers: Workers = ALONE) -> ExactModel:
     """One ruled wall for a chain of runs, or for one run, where it pays."""
     for chain in reversed(smooth_chains(model)):
-        walls = [model.stack.runs[j].walls[0] for j in chain]
-        revolved = all(isinstance(wall, Revolved) for wall in walls)
-        if revolved or any(isinstance(wall, (Ruled, Filleted, Lofted)) for wall in walls):
-            continue
-        more = SIMPLEST - sum(len(wall.vector) for wall in walls)
-        more = max(more, 0) if len(walls) == 1 else more
-        least = GAIN + price(more - PER_RUN * (len(walls) - 1), len(points), together)
-        blurred = together > 1 and not clear(points, model, chain)
-        if not blurred and HOPE * misfit(points, model, chain, together) <= least:
+        if not _may_be_ruled(points, model, chain, together):
             continue
         ends = float(model.stack.breaks[chain.start]), float(model.stack.breaks[chain.stop])
-        found: list[tuple[float, ExactModel]] = []
-        for wall in (*square_to_round(model, chain), ruled_start(points, ends, together)):
+        parts = []
+        for wall in (*square_to_round(model, chain), ruled_start(points, ends, together, workers)):
             if wall is not None:
                 change = with_runs(model, chain.start, chain.stop - 1, Run((wall,)))
-                runs = range(chain.start, chain.start + 1)
-                better, gain = tried_free(points, model, Change(change, runs), together)
-                found += [] if better is None else [(gain, better)]
+                parts.append((points, model, Change(change, range(chain.start, chain.start + 1)), together))
+        found = [(gain, better) for better, gain in workers.each(tried_free, parts) if better is not None]
         model = max(found, key=lambda one: one[0])[1] if found else model
     return model
+
+
+def _may_be_ruled(points: Floats, model: ExactModel, chain: range, together: float) -> bool:
+    """Whether the points leave enough unexplained for the simplest ruled wall to pay."""
+    walls = [model.stack.runs[j].walls[0] for j in chain]
+    revolved = all(isinstance(wall, Revolved) for wall in walls)
+    if revolved or any(isinstance(wall, (Ruled, Filleted, Lofted)) for wall in walls):
+        return False
+    more = SIMPLEST - sum(len(wall.vector) for wall in walls)
+    more = max(more, 0) if len(walls) == 1 else more
+    least = GAIN + price(more - PER_RUN * (len(walls) - 1), len(points), together)
+    if HOPE * misfit(points, model, chain, together) > least:
+        return True
+    if together == 1 or clear(points, model, chain):
+        return False
+    if len(chain) > 1:
+        return True
+    halves = price(len(walls[0].vector), len(points), together) + GAIN
+    return BEYOND * _by_halves(points, model, chain) / together + BLURRED > max(least, halves)
+
+
+def _by_halves(points: Floats, model: ExactModel, runs: range) -> float:
+    """Log likelihood that the two halves of a run promise to gain by parameters of their own."""
+    low, high = model.stack.breaks[[runs.start, runs.stop]].tolist()
+    wall = model.stack.runs[runs.start].walls[0]
+    halves = with_split(model, runs.start, [(low + high) / 2], [wall, wall])
+    both = range(runs.start, runs.stop + 1)
+    near = points[beside_walls(points, model, BESIDE * model.sigma)]
+    return promise(near, halves, both) - promise(near, model, runs)
 
 
 def _best_loft(points: Floats, model: ExactModel, runs: range, together: float) -> ExactModel | None:

@@ -15,6 +15,7 @@ from sketchloft.outline.placed_polygons import RoundedRectangle
 from sketchloft.outline.polygons import chain_outline
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.wall.ruled import Ruled
+from sketchloft.workers import ALONE, Workers
 
 __all__ = ["ruled_start"]
 
@@ -29,7 +30,9 @@ ROUND = (RoundedPolygon, RoundedRectangle)
 """Outlines with corners that are none."""
 
 
-def ruled_start(points: Floats, ends: tuple[float, float], together: float) -> Ruled | None:
+def ruled_start(
+    points: Floats, ends: tuple[float, float], together: float, workers: Workers = ALONE
+) -> Ruled | None:
     """Wall from one outline to another, where one at least has corners.
 
     Parameters
@@ -39,6 +42,7 @@ def ruled_start(points: Floats, ends: tuple[float, float], together: float) -> R
         Heights.
     together : float
         How many of the points go together.
+    workers : Workers, optional
 
     Returns
     -------
@@ -46,11 +50,14 @@ def ruled_start(points: Floats, ends: tuple[float, float], together: float) -> R
         None where a section is not one piece, or neither has corners, or both are too rich in them.
     """
     low, high = ends
-    outlines: list[Outline] = []
+    slabs = []
     for bottom, top in ((low, low + SLAB * (high - low)), (high - SLAB * (high - low), high)):
-        slab = points[(points[:, 2] > bottom) & (points[:, 2] < top)]
-        slab = slab[:: len(slab) // MOST_POINTS + 1]
-        shape = recognise_section(slab[:, :2], together) if len(slab) >= FEWEST else None
+        slab = points[(points[:, 2] > bottom) & (points[:, 2] < top), :2]
+        slabs.append(slab[:: len(slab) // MOST_POINTS + 1])
+    if min(map(len, slabs)) < FEWEST:
+        return None
+    outlines: list[Outline] = []
+    for shape in workers.each(recognise_section, [(slab, together) for slab in slabs]):
         if shape is None or shape.holes or len(shape.outlines) != 1:
             return None
         outlines.append(shape.outlines[0])

@@ -16,8 +16,12 @@ from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.joins import natural_joins
 
 __all__ = [
+    "BESIDE",
+    "BEYOND",
+    "BLURRED",
     "FREE_GAIN",
     "MOST_NOISE",
+    "SETTLED",
     "Change",
     "fitted",
     "free_gain",
@@ -36,8 +40,10 @@ FAR = 300.0
 """A change that is so much worse before the first step is given up."""
 HOPELESS = 40.0
 """A change that is still so much worse after the first few steps is given up."""
-HOPE = 2.0
+BEYOND = 2.0
 """How much more than the slopes promise a change may gain: they hold for small movements."""
+BLURRED = 10.0
+"""What the noise that suits a free wall may gain beside."""
 PATIENCE = 400.0
 """`HOPELESS` for a free wall, which starts from contours and has far to go."""
 SHARP = 0.006
@@ -127,7 +133,7 @@ def tried(points: Floats, model: ExactModel, change: Change, together: float) ->
     wide = _with_neighbours(candidate, runs)
     least = worth(near, model, together, count) + change.handicap
     value = worth(near, candidate, together, count)
-    if least - value > min(HOPE * promise(near, candidate, wide) / together, FAR):
+    if least - value > min(BEYOND * promise(near, candidate, wide) / together, FAR):
         return None
     for steps in STEPS:
         candidate, _, _ = climb(near, candidate, steps, runs=wide, enough=ENOUGH * together)
@@ -190,7 +196,7 @@ def tried_free(
     model = fit_density(points, model, 1)
     least = value(model) + change.handicap
     gain = value(candidate) - least
-    if gain + HOPE * promise(near, candidate, wide) / together < 0:
+    if gain + BEYOND * promise(near, candidate, wide) / together < -BLURRED:
         return None, gain
     for k, steps in enumerate((STEPS[0], *STEPS, SETTLED)):
         if k:

@@ -31,6 +31,8 @@ LAST = 4
 """Parameters that come last: tilt, log sigma and log stray."""
 LARGEST = 0.5, 1.0
 """Largest steps of the last two."""
+DAMPING = 1e-3
+"""Damping of the first step."""
 FAR_ENOUGH = 0.75
 """Share of a step that the best one has at least, for there to be less damping."""
 SHORTEST = 0.01
@@ -83,7 +85,7 @@ def climb(
     (3, 3) float array
         The rotation: new points = old points @ rotation.
     """
-    damping, turn = 1e-3, np.eye(3)
+    damping, turn = DAMPING, np.eye(3)
     model = joined(model)
     seen = rising(points)
     now = evaluate(seen, model, caps=caps)
@@ -129,11 +131,8 @@ def promise(points: Floats, model: ExactModel, runs: range) -> float:
     if not np.isfinite(now.value):
         return 0.0
     free = _free(model, tilt=False, noise=False, strays=False) & _of_runs(model, runs)
-    index = np.flatnonzero(free)
-    information = now.derivatives.information[np.ix_(index, index)]
-    score = now.derivatives.score[index]
-    ridge = 1e-9 * max(float(np.diag(information).max(initial=0.0)), 1e-300) * np.eye(len(index))
-    return float(score @ np.linalg.solve(information + ridge, score)) / 2
+    step = _step(now.derivatives, free, DAMPING, model.sigma)
+    return float(now.derivatives.score @ step - step @ now.derivatives.information @ step / 2)
 
 
 def _free(model: ExactModel, *, tilt: bool, noise: bool, strays: bool) -> Bools:

@@ -8,7 +8,7 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.exact.changes.merges import merges
-from sketchloft.exact.changes.trial import fitted
+from sketchloft.exact.changes.trial import SETTLED, Change, fitted
 from sketchloft.exact.changes.worth import worth
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.search.stray_strokes import Strays, stray_strokes
@@ -18,8 +18,10 @@ __all__ = ["without_absorbed"]
 
 SMALL = 0.1
 """Share of the points that a run holds less of if a stroke may be what it is there for."""
+FAR = 800.0
+"""A model that is so much worse than the other before its fit is given up."""
 FIRST, PATIENCE = 3, 400.0
-"""Steps of its fit after which a model that is so much worse than the other is given up."""
+"""Steps of its fit after which one that is so much worse is given up."""
 HOPELESS = 100.0
 """A model that is so much worse than the other before its strays are left out is given up."""
 
@@ -58,20 +60,27 @@ def _holds_few(points: Floats, model: ExactModel) -> bool:
 def _simpler(points: Floats, strays: Strays, together: float, workers: Workers) -> Strays | None:
     """A run less, with a stroke less, the best of all that pay."""
     inner = points[strays.kept]
-    best, most = None, worth(inner, strays.model, together, len(points))
-    for change in merges(strays.model):
-        candidate = fitted(inner, strays.model, change, together, FIRST)
-        if worth(inner, candidate, together, len(points)) < most - PATIENCE:
-            continue
-        candidate = fitted(inner, strays.model, replace(change, model=candidate), together)
-        if worth(inner, candidate, together, len(points)) < most - HOPELESS:
-            continue
-        found = stray_strokes(inner, candidate, together, workers)
-        value = worth(inner[found.kept], found.model, together, len(points)) + found.worth
-        if value > most and not found.kept.all():
-            best, most = found, value
-    if best is None:
+    parts = [(inner, strays.model, change, together) for change in merges(strays.model)]
+    found = [(value, less) for value, less in workers.each(_less, parts) if less is not None]
+    most = worth(inner, strays.model, together, len(points))
+    value, best = max(found, key=lambda one: one[0], default=(most, None))
+    if best is None or value <= most:
         return None
     kept = strays.kept.copy()
     kept[kept] = best.kept
     return replace(best, kept=kept, worth=strays.worth + best.worth)
+
+
+def _less(points: Floats, model: ExactModel, change: Change, together: float) -> tuple[float, Strays | None]:
+    """What a model with a run and a stroke less is worth; none where there is no hope or no such stroke."""
+    least = worth(points, model, together, len(points))
+    candidate = change.model
+    for steps, worse in ((0, FAR), (FIRST, PATIENCE), (SETTLED, HOPELESS)):
+        if steps:
+            candidate = fitted(points, model, replace(change, model=candidate), together, steps)
+        if worth(points, candidate, together, len(points)) < least - worse:
+            return -np.inf, None
+    found = stray_strokes(points, candidate, together)
+    if found.kept.all():
+        return -np.inf, None
+    return worth(points[found.kept], found.model, together, len(points)) + found.worth, found

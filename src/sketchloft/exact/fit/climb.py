@@ -39,6 +39,8 @@ SHORTEST = 0.01
 """Share of a step that the next one is cut down to at most."""
 EASED = 0.1
 """Damping at least after a step that led to no model at all, and below which a small gain is the last."""
+TRUST = 10.0
+"""How far a wall may move, in noise deviations, for its slopes to tell what that gains."""
 STRIDE = 3.0
 """How far a single parameter may move a wall in one step, in noise deviations."""
 
@@ -131,8 +133,13 @@ def promise(points: Floats, model: ExactModel, runs: range) -> float:
     if not np.isfinite(now.value):
         return 0.0
     free = _free(model, tilt=False, noise=False, strays=False) & _of_runs(model, runs)
-    step = _step(now.derivatives, free, DAMPING, model.sigma)
-    return float(now.derivatives.score @ step - step @ now.derivatives.information @ step / 2)
+    index = np.flatnonzero(free)
+    information = now.derivatives.information[np.ix_(index, index)]
+    score, reach = now.derivatives.score[index], now.derivatives.reach[index]
+    step = np.linalg.solve(information + np.diag(_floor(information, reach, model.sigma)), score)
+    farthest = float(np.abs(step * reach).max(initial=0.0)) / (TRUST * model.sigma)
+    share = 1 / max(farthest, 1.0)
+    return float(score @ step) * (share - share**2 / 2)
 
 
 def _free(model: ExactModel, *, tilt: bool, noise: bool, strays: bool) -> Bools:
@@ -160,8 +167,7 @@ def _step(now: Derivatives, free: Bools, damping: float, sigma: float) -> Floats
     step = np.zeros(len(now.score))
     index = np.flatnonzero(free)
     information = now.information[np.ix_(index, index)]
-    diagonal = np.diag(information).copy()
-    floor = 1e-9 * max(float(diagonal.max(initial=0.0)), 1.0) + (0.1 * now.reach[index] / sigma) ** 2
+    diagonal, floor = np.diag(information), _floor(information, now.reach[index], sigma)
     information = information + np.diag(damping * diagonal + floor * max(damping, 1e-3))
     raw = np.linalg.solve(information + 1e-12 * np.eye(len(index)), now.score[index])
     limit = STRIDE * sigma / np.maximum(now.reach[index], TINY)
@@ -169,6 +175,13 @@ def _step(now: Derivatives, free: Bools, damping: float, sigma: float) -> Floats
         limit[index == place] = largest
     step[index] = np.clip(raw, -limit, limit)
     return step
+
+
+def _floor(information: Floats, reach: Floats, sigma: float) -> Floats:
+    """Information (p,) that parameters have without points, lest one that these say nothing of run away."""
+    most = float(np.diag(information).max(initial=0.0))
+    floor: Floats = 1e-9 * max(most, 1.0) + (0.1 * reach / sigma) ** 2
+    return floor
 
 
 def _damping(damping: float, slope: float, gain: float) -> float:

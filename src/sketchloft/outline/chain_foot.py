@@ -39,7 +39,7 @@ def chain_foot(points: Floats, vertices: Floats, bulges: Floats) -> Foot:
     edges = edge_frames(vertices - origin, bulges)
     local = points - origin
     near = nearest(local, edges)
-    distance, normal, curvature, tau = _edge_foot(local, edges, near.edge)
+    distance, normal, curvature, tau = _edge_foot(edges, near)
     rows = np.flatnonzero(~near.on_edge)
     if len(rows):
         distance[rows], normal[rows] = _vertex_foot(local[rows], edges, near.vertex[rows])
@@ -50,40 +50,44 @@ def chain_foot(points: Floats, vertices: Floats, bulges: Floats) -> Foot:
 def _gradient(edges: Edges, near: Nearest, normal: Floats, tau: Floats) -> Floats:
     """Derivative (n, 3m) of the distance by the vertices and the bulges."""
     m = len(edges.bulge)
-    gradient = np.zeros((len(tau), 3 * m))
+    gradient = np.zeros((3 * m, len(tau)))
     rows = np.flatnonzero(near.on_edge)
     edge = near.edge[rows]
     by_start, by_end, by_bulge = _edge_gradient(edges, edge, normal[rows], tau[rows])
     _put(gradient, rows, edge, by_start)
     _put(gradient, rows, (edge + 1) % m, by_end)
-    gradient[rows, 2 * m + edge] = by_bulge
+    gradient[2 * m + edge, rows] = by_bulge
     rows = np.flatnonzero(~near.on_edge)
     _put(gradient, rows, near.vertex[rows], -normal[rows])
-    return gradient
+    return gradient.T
 
 
 def _put(gradient: Floats, rows: Ints, vertex: Ints, values: Floats) -> None:
-    """Set the derivative of some rows by their vertices (n,)."""
-    gradient[rows, 2 * vertex], gradient[rows, 2 * vertex + 1] = values.T
+    """Set the derivative (3m, n) of some points by their vertices (n,)."""
+    gradient[2 * vertex, rows], gradient[2 * vertex + 1, rows] = values.T
 
 
-def _edge_foot(points: Floats, edges: Edges, edge: Ints) -> tuple[Floats, Floats, Floats, Floats]:
-    """Distance, normal, curvature and parameter tau of points on the edges (n,) that they are nearest to."""
-    unit, across = edges.unit[edge], edges.across[edge]
+def _edge_foot(edges: Edges, near: Nearest) -> tuple[Floats, Floats, Floats, Floats]:
+    """Distance, normal, curvature and parameter tau of points on the edges that they are nearest to."""
+    edge, x, y = near.edge, near.x, near.y
+    across = edges.across.T[:, edge]
+    if not edges.bulge.any():
+        return y, across.T, np.zeros(len(y)), np.clip(2 * x / edges.reach[edge], -1.0, 1.0)
     curvature, cosine, length = edges.curvature[edge], edges.cosine[edge], edges.length[edge]
-    gap = points - edges.middle[edge]
-    x, y = np.einsum("ij,ij->i", gap, unit), np.einsum("ij,ij->i", gap, across)
     f = curvature * (x * x + y * y - length**2 / 4) + 2 * y * cosine
     root = np.sqrt(np.maximum(1 + curvature * f, 0.0))
     tau = 4 * x / (edges.reach[edge] * np.maximum(root + curvature * y + cosine, 1e-300))
     tau = np.clip(tau, -1.0, 1.0)
     with_chord, aside = edge_normal(tau, edges.bulge[edge])
-    normal = with_chord[:, None] * unit + aside[:, None] * across
-    return f / (1 + root), normal, curvature, tau
+    normal = with_chord * edges.unit.T[:, edge] + aside * across
+    return f / (1 + root), normal.T, curvature, tau
 
 
 def _edge_gradient(edges: Edges, edge: Ints, normal: Floats, tau: Floats) -> tuple[Floats, Floats, Floats]:
     """Minus the normal times the movement of points at tau: by start, end (n, 2) and bulge (n,)."""
+    if not edges.bulge.any():
+        share = (tau[:, None] + 1) / 2
+        return (share - 1) * normal, -share * normal, (tau * tau - 1) * edges.length[edge] / 2
     bulge = edges.bulge[edge]
     xi, eta = edge_place(tau, bulge)
     turned = eta[:, None] * np.column_stack([-normal[:, 1], normal[:, 0]])

@@ -34,11 +34,13 @@ class Edges(NamedTuple):
 
 
 class Nearest(NamedTuple):
-    """Nearest edge and vertex of points, each (n,)."""
+    """Nearest edge and vertex of points, each (n,), and where they are in the frame of that edge."""
 
     edge: Ints
     vertex: Ints
     on_edge: NDArray[np.bool_]
+    x: Floats
+    y: Floats
 
 
 def edge_frames(vertices: Floats, bulges: Floats) -> Edges:
@@ -69,7 +71,7 @@ def nearest(points: Floats, edges: Edges) -> Nearest:
     blocks = [_nearest_block(points[i : i + size], edges) for i in range(0, len(points), size)]
     if not blocks:
         none = np.zeros(0, dtype=np.intp)
-        return Nearest(none, none, none > 0)
+        return Nearest(none, none, none > 0, np.zeros(0), np.zeros(0))
     return Nearest(*(np.concatenate(parts) for parts in zip(*blocks, strict=True)))
 
 
@@ -78,16 +80,20 @@ def _nearest_block(points: Floats, edges: Edges) -> Nearest:
     half = edges.length[:, None] / 2
     x = edges.unit @ points.T - np.einsum("ij,ij->i", edges.middle, edges.unit)[:, None]
     y = edges.across @ points.T - np.einsum("ij,ij->i", edges.middle, edges.across)[:, None]
+    column = np.arange(len(points))
+    if not edges.bulge.any():
+        beyond = x - np.clip(x, -half, half)
+        edge = (np.square(beyond) + y * y).argmin(axis=0)
+        x, y = x[edge, column], y[edge, column]
+        on_edge = edges.exists[edge] & (np.abs(x) <= half[edge, 0] * SLACK)
+        return Nearest(edge, (edge + (x > 0)) % len(edges.bulge), on_edge, x, y)
     to_vertex = np.square(x + half) + y * y
-    if edges.bulge.any():
-        gap, within = _arcs(x, y, edges)
-    else:
-        gap, within = y, np.abs(x) <= half * SLACK
+    gap, within = _arcs(x, y, edges)
     within &= edges.exists[:, None]
     to_edge = np.where(within, gap * gap, np.inf)
     edge, vertex = to_edge.argmin(axis=0), to_vertex.argmin(axis=0)
-    column = np.arange(len(points))
-    return Nearest(edge, vertex, to_edge[edge, column] <= to_vertex[vertex, column])
+    on_edge = to_edge[edge, column] <= to_vertex[vertex, column]
+    return Nearest(edge, vertex, on_edge, x[edge, column], y[edge, column])
 
 
 def _arcs(x: Floats, y: Floats, edges: Edges) -> tuple[Floats, NDArray[np.bool_]]:

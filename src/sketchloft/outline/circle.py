@@ -49,10 +49,10 @@ class Circle:
         far = np.hypot(x, y)
         at_centre = far == 0
         scale = np.where(at_centre, 1.0, far)
-        normal = np.column_stack([np.where(at_centre, 1.0, x / scale), y / scale])
+        normal = np.array([np.where(at_centre, 1.0, x / scale), y / scale]).T
 
         def slopes() -> Floats:
-            return np.column_stack([-normal, np.full(len(far), -1.0)])
+            return np.vstack([-normal.T, np.full(len(far), -1.0)]).T
 
         return Foot(far - self.radius, normal, slopes, np.full(len(far), 1 / self.radius))
 

@@ -61,10 +61,10 @@ class Ellipse:
         steep = np.hypot(b * cos, a * sin)
         nx, ny = b * cos / steep, a * sin / steep
         at_x, at_y = a * cos, b * sin
-        normal = np.column_stack([nx, ny]) @ turn.T
+        normal = (turn @ np.array([nx, ny])).T
 
         def slopes() -> Floats:
-            return np.column_stack([-normal, -nx * cos, -ny * sin, nx * at_y - ny * at_x])
+            return np.vstack([-normal.T, -nx * cos, -ny * sin, nx * at_y - ny * at_x]).T
 
         return Foot((x - at_x) * nx + (y - at_y) * ny, normal, slopes, a * b / steep**3)
 

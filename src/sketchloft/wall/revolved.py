@@ -65,12 +65,13 @@ class Revolved:
 
     def foot(self, points: Floats) -> WallFoot:
         """Signed distance of points (n, 3), and its derivatives."""
-        spoke = points[:, :2] - self.centre
-        r = np.maximum(np.hypot(spoke[:, 0], spoke[:, 1]), 1e-12)
-        e = spoke / r[:, None]
-        distance, n_r, n_z, slopes, bend = _profile_foot(self.profile, r, points[:, 2])
-        normal = np.column_stack([e * n_r[:, None], n_z])
-        return WallFoot(distance, normal, lambda: np.column_stack([-normal[:, :2], slopes()]), bend + n_r / r)
+        x, y, z = points.T
+        x, y = x - self.centre[0], y - self.centre[1]
+        r = np.maximum(np.hypot(x, y), 1e-12)
+        distance, n_r, n_z, slopes, bend = _profile_foot(self.profile, r, z)
+        flat = n_r / r
+        normal = np.array([x * flat, y * flat, n_z]).T
+        return WallFoot(distance, normal, lambda: np.vstack([-normal.T[:2], *slopes()]).T, bend + flat)
 
     def boundary(self, low: float, high: float, count: int) -> WallBoundary:
         """About `count` points on the wall between two heights."""
@@ -159,7 +160,7 @@ def _profile_moved(profile: Profile, vector: Floats) -> Profile:
 
 def _profile_foot(
     profile: Profile, r: Floats, z: Floats
-) -> tuple[Floats, Floats, Floats, Callable[[], Floats], Floats]:
+) -> tuple[Floats, Floats, Floats, Callable[[], list[Floats]], Floats]:
     """Signed distance in the half plane, its gradient by r, by z and by the parameters, and the bend."""
     match profile:
         case LineProfile(height, radius, slope):
@@ -168,10 +169,8 @@ def _profile_foot(
             s = c * (r - radius - g * (z - height))
             one = np.ones(len(r))
 
-            def by_line() -> Floats:
-                return np.column_stack(
-                    [-c * one] if slope is None else [-c * one, -c * (z - height) - s * g * c**2]
-                )
+            def by_line() -> list[Floats]:
+                return [-c * one] if slope is None else [-c * one, -c * (z - height) - s * g * c**2]
 
             return s, c * one, -g * c * one, by_line, 0 * one
         case ArcProfile(height, offset, radius, side):
@@ -181,13 +180,12 @@ def _profile_foot(
             length = np.maximum(np.hypot(w_r, w_z), 1e-12)
             n_r, n_z = side * w_r / length, side * w_z / length
 
-            def by_arc() -> Floats:
-                columns = [-n_z, np.full(len(r), -float(side))] + ([] if offset is None else [-n_r])
-                return np.column_stack(columns)
+            def by_arc() -> list[Floats]:
+                return [-n_z, np.full(len(r), -float(side))] + ([] if offset is None else [-n_r])
 
             return side * (length - radius), n_r, n_z, by_arc, side / length
         case SplineProfile(knots, radii):
             basis = basis_matrix(knots, SplineProfile.degree, z)
             rise: Floats = basis_matrix(knots, SplineProfile.degree, z, 1) @ radii
             c = 1 / np.hypot(1.0, rise)
-            return c * (r - basis @ radii), c, -rise * c, lambda: -c[:, None] * basis, np.zeros(len(r))
+            return c * (r - basis @ radii), c, -rise * c, lambda: list(-c * basis.T), np.zeros(len(r))

@@ -131,7 +131,7 @@ class Swept:
             return self._dome(points)
         if self.still and not self.free:
             seen = self.outline.foot(points[:, :2])
-            normal = np.column_stack([seen.normal, np.zeros(len(points))])
+            normal = np.vstack([seen.normal.T, np.zeros(len(points))]).T
             return WallFoot(seen.distance, normal, seen.slopes, seen.curvature)
         dz = points[:, 2] - self.height
         scale = np.maximum(1 + self.taper * dz, 1e-6)

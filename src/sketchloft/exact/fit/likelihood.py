@@ -128,14 +128,18 @@ def losses(points: Floats, model: ExactModel) -> Floats:
 
 
 def rising(points: Floats) -> Floats:
-    """Points (n, 3) in the order in which those of a run are all in a row."""
+    """Points (n, 3) in the order in which those of a run are all in a row, each coordinate in one piece."""
     z = points[:, 2]
-    return points if (z[1:] >= z[:-1]).all() else points[np.argsort(z, kind="stable")]
+    order = slice(None) if (z[1:] >= z[:-1]).all() else np.argsort(z, kind="stable")
+    return np.asfortranarray(points[order])
 
 
 def _share_inside(points: Floats, model: ExactModel, sigma: float, *, caps: bool = True) -> Floats:
     """Soft indicator (n,) of points in any order."""
-    order = np.argsort(points[:, 2], kind="stable")
+    z = points[:, 2]
+    if (z[1:] >= z[:-1]).all():
+        return share_within(len(points), slabs_of(points, model, sigma, caps=caps))
+    order = np.argsort(z, kind="stable")
     inside = np.empty(len(points))
     inside[order] = share_within(len(points), slabs_of(points[order], model, sigma, caps=caps))
     return inside

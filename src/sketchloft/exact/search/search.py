@@ -13,7 +13,7 @@ from sketchloft.exact.changes.misfit import misfit
 from sketchloft.exact.changes.worth import worth
 from sketchloft.exact.fit.climb import climb
 from sketchloft.exact.fit.inward_gap import without_gap
-from sketchloft.exact.fit.likelihood import beside_walls
+from sketchloft.exact.fit.likelihood import beside_walls, rising
 from sketchloft.exact.fit.sharpen import least_noise, sharpened
 from sketchloft.exact.model.exact_model import ExactModel, thicker
 from sketchloft.exact.model.joins import natural_joins
@@ -89,7 +89,7 @@ def search(
         Called with "fit" when the runs are found.
     workers : Workers, optional
     """
-    sample, together, model = start.sample, start.together, start.settled
+    sample, together, model = rising(start.sample), start.together, start.settled
     sigma = max(model.sigma, AT_LEAST)
     natural = natural_joins(replace(natural_joins(model), sigma=sigma))
     model = natural if sound(natural) else replace(model, sigma=sigma)

@@ -13,7 +13,7 @@ from sketchloft.exact.changes.trial import FREE_GAIN, Change, free_gain
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.joins import end_pole, natural_joins, sole_profile
 from sketchloft.exact.model.surgery import with_run, with_split, with_wall
-from sketchloft.exact.section.rarity import rarity
+from sketchloft.exact.section.rarity import rarity_of
 from sketchloft.intervals import cheapest_chain
 from sketchloft.outline.polygons import Polygon
 from sketchloft.outline.rectilinear import RectilinearPolygon
@@ -91,7 +91,7 @@ def swaps(model: ExactModel) -> Iterator[Change]:
                 nested = _extends(wall, other)
                 free = _is_free(wall) or _bends(wall, other)
                 changed = with_wall(model, j, i, other)
-                handicap = -FREE_GAIN if _is_free(wall) else max(_rarity(other) - _rarity(wall), 0.0)
+                handicap = -FREE_GAIN if _is_free(wall) else max(rarity_of([other]) - rarity_of([wall]), 0.0)
                 yield Change(changed, range(j, j + 1), handicap, nested, free)
 
 
@@ -113,10 +113,6 @@ def closings(model: ExactModel) -> Iterator[Change]:
             moved[k] = pole
             closed = natural_joins(model.moved(model.vector, moved))
             yield Change(closed, range(j, j + 1), -FLAT)
-
-
-def _rarity(wall: Wall) -> float:
-    return rarity(wall.outline) if isinstance(wall, Swept) else 0.0
 
 
 def _is_free(wall: Wall) -> bool:

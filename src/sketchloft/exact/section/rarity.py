@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from sketchloft.outline.circle import Circle
 from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.outline import Arc, Outline
@@ -11,8 +13,10 @@ from sketchloft.outline.rectilinear import RectilinearPolygon
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import SplineLoop
 from sketchloft.outline.star import Star
+from sketchloft.stack import Wall
+from sketchloft.wall.swept import Swept
 
-__all__ = ["COMMON", "LAST", "may_be_free", "rarity"]
+__all__ = ["COMMON", "LAST", "may_be_free", "rarity", "rarity_of"]
 
 COMMON = (Circle, Ellipse, Rectangle)
 """Outlines that there is no simpler one for."""
@@ -38,6 +42,11 @@ def rarity(outline: Outline) -> float:
     if isinstance(outline, LineArc):
         edges += ODD * odd_corners(outline)
     return 0.0 if isinstance(outline, COMMON) else max(RARE, edges)
+
+
+def rarity_of(walls: Iterable[Wall]) -> float:
+    """Log odds against the outlines of walls."""
+    return sum(rarity(wall.outline) for wall in walls if isinstance(wall, Swept))
 
 
 def may_be_free(outline: Outline) -> bool:

@@ -1,0 +1,101 @@
+"""When a change of a model pays, and what is not tried at all."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from sketchloft.cloud import Floats
+from sketchloft.exact.changes.trial import BEYOND, Change, tried
+from sketchloft.exact.changes.worth import worth
+from sketchloft.exact.fit.climb import climb, promise
+from sketchloft.exact.model.density import Density
+from sketchloft.exact.model.exact_model import ExactModel, model_of
+from sketchloft.exact.model.joins import natural_joins
+from sketchloft.exact.model.surgery import with_wall
+from sketchloft.exact.start.segments import SegmentsParams
+from sketchloft.exact.start.start import start_along
+from sketchloft.sample import GOALS, FillParams, sample_goal
+from sketchloft.stack import Run, Stack, Wall
+from sketchloft.wall.profile import ArcProfile, LineProfile
+from sketchloft.wall.revolved import Revolved
+
+COUNT = 6000
+SIGMA = 0.005
+ORIGIN = np.zeros(2)
+
+
+def frustum(slope: float, seed: int = 5) -> Floats:
+    """Points drawn evenly in a cone of radius 0.3 in the middle of its height 0.6, with noise."""
+    rng = np.random.default_rng(seed)
+    box = rng.uniform(-0.5, 0.5, (8 * COUNT, 3)) * [1, 1, 0.6]
+    inner = box[np.hypot(box[:, 0], box[:, 1]) < 0.3 + slope * box[:, 2]][:COUNT]
+    return inner + SIGMA * rng.standard_normal(inner.shape)
+
+
+def model_with(wall: Wall, ends: tuple[float, float] = (-0.3, 0.3)) -> ExactModel:
+    density = Density(np.log([COUNT / float(wall.area(np.linspace(*ends, 99)).mean() * (ends[1] - ends[0]))]))
+    return model_of(Stack(np.array(ends), (Run((wall,)),)), SIGMA, density, 1.0, 1.0)
+
+
+def cylinder(radius: float = 0.3) -> Revolved:
+    return Revolved(ORIGIN, LineProfile(0.0, radius, None))
+
+
+def cone(slope: float = 0.0) -> Revolved:
+    return Revolved(ORIGIN, LineProfile(0.0, 0.3, slope))
+
+
+@pytest.mark.parametrize("off", [-0.004, -0.001, 0.002, 0.004])
+def test_slopes_promise_about_what_a_small_movement_gains(off: float) -> None:
+    points, model = frustum(0.0), model_with(cylinder(0.3 + off))
+    best, _, _ = climb(points, model, 20)
+    gain = worth(points, best, 1, COUNT) - worth(points, model, 1, COUNT)
+    assert gain / BEYOND < promise(points, model, range(1)) < 3 * gain
+    assert promise(points, best, range(1)) == pytest.approx(0, abs=0.05)
+
+
+@pytest.mark.parametrize(("slope", "pays"), [(0.0, False), (0.03, True)])
+def test_a_taper_is_taken_up_where_there_is_one(slope: float, pays: bool) -> None:
+    points = frustum(slope)
+    model, _, _ = climb(points, model_with(cylinder()), 20)
+    change = Change(with_wall(model, 0, 0, cone()), range(1))
+    assert (tried(points, model, change, 1) is not None) == pays
+
+
+def test_what_a_model_would_gain_anyhow_is_not_to_the_credit_of_a_change() -> None:
+    """Else a model that is not fitted yet is left for any other that is nearer by chance, and back again."""
+    points = frustum(0.0)
+    unfitted = with_wall(model_with(cylinder()), 0, 0, cylinder(0.298))
+    nearer = with_wall(unfitted, 0, 0, cone())
+    assert worth(points, nearer, 1, COUNT) > worth(points, unfitted, 1, COUNT)
+    assert tried(points, unfitted, Change(nearer, range(1)), 1) is None
+
+
+def test_a_sphere_has_no_direction_to_pay_for() -> None:
+    """So it is told from a spheroid, whose two more parameters the price forgot, among clouds of a sphere."""
+    points = frustum(0.0)
+    ball = Revolved(ORIGIN, ArcProfile(0.0, None, 0.3))
+    flat = model_with(ball, (-0.2, 0.2))
+    whole = natural_joins(model_with(ball, (-0.2999999, 0.2999999)))
+    assert whole.joins == ("pole", "pole")
+
+    def price(model: ExactModel) -> float:
+        return worth(points[:1], replace(model, sigma=1e-3), 1, COUNT) - worth(
+            points[:1], replace(model, sigma=1e-3), 1, 3
+        )
+
+    per_parameter = 0.5 * np.log(COUNT / 3)
+    assert price(flat) == pytest.approx(-per_parameter * (flat.parameters + 2 + 2))
+    assert price(whole) == pytest.approx(-per_parameter * (whole.parameters + 2))
+
+
+@pytest.mark.parametrize("vector", [[1.0, 2.0, 3.0], [-3.0, 1.0, 0.5]])
+def test_strays_come_from_the_same_place_along_any_direction(vector: list[float]) -> None:
+    """Else ends of searches along different directions are not to be compared."""
+    points = sample_goal(GOALS["cylinder"], 3000, FillParams(outliers=0.01), seed=4).points
+    unit = (points - points.mean(axis=0)) / np.ptp(points, axis=0).max()
+    along = [start_along(unit, np.array(v), (), SegmentsParams()) for v in ([0, 0, 1.0], vector)]
+    assert along[0].first.space == pytest.approx(along[1].first.space, rel=1e-4)

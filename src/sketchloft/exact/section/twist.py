@@ -17,9 +17,10 @@ MOST_TURN = 2.5
 TURNS = 101
 CLEAR = 8.0
 """Standard deviations above chance that a turning moment must have."""
-GAIN = 60.0
+GAIN = 30.0
 """Squared deviations by which it must be above the moment that does not turn."""
-MOST_POINTS = 3000
+SLABS = 128
+"""Stretches along the height, over which no section turns by much."""
 SEEN = 4.0
 """Standard deviations by which the ends must be turned against each other for a segment to seem to turn."""
 
@@ -51,7 +52,7 @@ def seems_to_turn(plan: PlanView, heights: Floats, together: float = 1.0) -> boo
     return False
 
 
-def twist_of(plan: PlanView, heights: Floats, together: float = 1.0, most_points: int = MOST_POINTS) -> float:
+def twist_of(plan: PlanView, heights: Floats, together: float = 1.0) -> float:
     """Turn per height, in radians, at which the section's outline is sharpest; 0 where it does not turn.
 
     Parameters
@@ -61,8 +62,6 @@ def twist_of(plan: PlanView, heights: Floats, together: float = 1.0, most_points
         Of its points, relative to the plan's.
     together : float
         How many of the points go together.
-    most_points : int
-        How many of them are looked at.
 
     Notes
     -----
@@ -70,22 +69,22 @@ def twist_of(plan: PlanView, heights: Floats, together: float = 1.0, most_points
     to 7 the one that stands out most from chance, once turned back, decides: its peak over the turn is
     a periodogram's.
     """
-    step = len(heights) // most_points + 1
-    spokes = (plan.points[::step] - plan.centre) @ np.array([1, 1j])
-    z = heights[::step]
-    length = float(np.ptp(z))
-    turns = np.linspace(-MOST_TURN, MOST_TURN, TURNS) / length
-    together = max(together / step, 1.0)
+    spokes = (plan.points - plan.centre) @ np.array([1, 1j])
+    low, length = float(heights.min()), float(np.ptp(heights))
+    slab = np.minimum((SLABS * (heights - low) / length).astype(int), SLABS - 1)
+    z = low + length * (np.arange(SLABS) + 0.5) / SLABS
+    back = np.exp(-1j * np.linspace(-MOST_TURN, MOST_TURN, TURNS)[:, None] * z / length)
     clear = CLEAR * float(np.sqrt(together))
     best, still, twist = clear, 0.0, 0.0
-    back = np.exp(-1j * turns[:, None] * z)
     for fold in FOLDS:
         power = spokes**fold
+        real, imaginary = (np.bincount(slab, part, SLABS) for part in (power.real, power.imag))
         chance = float(np.sqrt((np.abs(power) ** 2).sum()))
-        peaks = np.abs(back**fold @ power) / chance
+        peaks = np.abs(back**fold @ (real + 1j * imaginary)) / chance
         top = int(np.argmax(peaks))
         if peaks[top] > best:
-            best, still, twist = float(peaks[top]), float(peaks[TURNS // 2]), float(turns[top])
+            best, still = float(peaks[top]), float(peaks[TURNS // 2])
+            twist = MOST_TURN * (2 * top / (TURNS - 1) - 1) / length
     return twist if best > clear and best**2 - still**2 > GAIN * together else 0.0
 
 

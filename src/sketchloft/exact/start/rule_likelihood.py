@@ -24,8 +24,6 @@ BLUR = 0.012
 CELLS = 1.5
 """Cells per blur."""
 FEWEST = 40
-TURNED_POINTS = 1000
-"""Points that tell by how much a segment turns."""
 PER_SEGMENT = 14.0
 """Parameters of a segment's rule, as they are priced."""
 
@@ -45,7 +43,7 @@ def rule_likelihood(points: Floats, params: SegmentsParams, together: float) -> 
         plan = plan_view(inner, together)
         place = inner[:, 2] - plan.height
         if seems_to_turn(plan, place, together):
-            plan = untwisted(plan, place, twist_of(plan, place, together, TURNED_POINTS))
+            plan = untwisted(plan, place, twist_of(plan, place, together))
         along = _heights(inner[:, 2], float(start), float(stop))
         across = _places(plan.points)
         total += float((np.log(along) + np.log(across) - 2 * np.log(plan.scale)).sum()) + len(inner) * np.log(

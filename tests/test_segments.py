@@ -104,6 +104,15 @@ def test_a_known_twist_is_found(corners: int, twist: float) -> None:
     assert found_twist(bar(twist, corners)) == pytest.approx(twist, abs=0.1)
 
 
+def test_all_points_tell_of_a_stout_bar_that_it_turns() -> None:
+    """Its sides are 3 to 2, so that its moments stand out less, and its ends are turned by 60 degrees."""
+    points = np.random.default_rng(4).uniform(-0.3, 0.3, (9000, 3)) * [1, 2 / 3, 1.1]
+    twist = np.pi / 3 / 0.66
+    spokes = (points[:, :2] @ [1, 1j]) * np.exp(1j * twist * points[:, 2])
+    turned = np.column_stack([spokes.real, spokes.imag, points[:, 2]])
+    assert found_twist(turned) == pytest.approx(twist, abs=0.15)
+
+
 @pytest.mark.parametrize("corners", [0, 2, 3, 4, 6])
 def test_what_does_not_turn_has_no_twist(corners: int) -> None:
     for seed in (3, 4, 5):

@@ -31,6 +31,8 @@ START = 0.006
 """Noise that the search begins with, as a share of the size."""
 ROOM = 1.5
 """Volume that strays are taken to come from, in that of the points' convex hull, the same from all sides."""
+WIDE_ROOM = 2.5
+"""The same among strokes, which stray as wholes, and few of which fill the thin parts of a thing."""
 SEARCH_POINTS = 12_000
 """The search looks at no more points; the fit looks at all."""
 DIGITS = 6
@@ -136,7 +138,7 @@ def start_along(
         )
     density = inside_density(sample, grid, together)
     cuts = segments(kept, params, clump(together) if fine else together)
-    space = ROOM * float(ConvexHull(sample).volume)
+    space = (ROOM if together == 1 else WIDE_ROOM) * float(ConvexHull(sample).volume)
     first = first_stack(
         kept,
         cuts,

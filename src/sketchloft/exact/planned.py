@@ -21,7 +21,8 @@ from sketchloft.exact.model.exact_model import ExactModel, thicker
 from sketchloft.exact.search.stray_strokes import counted, stray_strokes
 from sketchloft.exact.section.level_set import level_set
 from sketchloft.exact.start.inside_density import inside_density
-from sketchloft.exact.start.start import BESIDE, ROOM, sampled
+from sketchloft.exact.start.start import BESIDE, sampled
+from sketchloft.exact.start.stray_space import stray_space
 from sketchloft.plan.from_model import planned_from_model
 from sketchloft.plan.plan import Plan, PlannedBody
 from sketchloft.plan.to_model import model_from_plan
@@ -133,7 +134,8 @@ def planned_model(points: Floats, plan: PlannedBody, scale: float) -> ExactModel
     plan : PlannedBody
     scale : float
     """
-    space = ROOM * float(np.prod(np.ptp(points, axis=0)))
+    sample = sampled(points)
+    space = stray_space(sample, dispersion(sample))
     model = model_from_plan(plan, scale, stray=1 / space, space=space)
     inside = np.log(len(points) / max(stack_volume(model.stack), 1e-9))
     return replace(model, density=Density(np.array([inside])))

@@ -71,7 +71,7 @@ def _edge_foot(edges: Edges, near: Nearest) -> tuple[Floats, Floats, Floats, Flo
     """Distance, normal, curvature and parameter tau of points on the edges that they are nearest to."""
     edge, x, y = near.edge, near.x, near.y
     across = edges.across.T[:, edge]
-    if not edges.bulge.any():
+    if edges.straight:
         return y, across.T, np.zeros(len(y)), np.clip(2 * x / edges.reach[edge], -1.0, 1.0)
     curvature, cosine, length = edges.curvature[edge], edges.cosine[edge], edges.length[edge]
     f = curvature * (x * x + y * y - length**2 / 4) + 2 * y * cosine
@@ -85,7 +85,7 @@ def _edge_foot(edges: Edges, near: Nearest) -> tuple[Floats, Floats, Floats, Flo
 
 def _edge_gradient(edges: Edges, edge: Ints, normal: Floats, tau: Floats) -> tuple[Floats, Floats, Floats]:
     """Minus the normal times the movement of points at tau: by start, end (n, 2) and bulge (n,)."""
-    if not edges.bulge.any():
+    if edges.straight:
         share = (tau[:, None] + 1) / 2
         return (share - 1) * normal, -share * normal, (tau * tau - 1) * edges.length[edge] / 2
     bulge = edges.bulge[edge]

@@ -32,6 +32,11 @@ class Edges(NamedTuple):
     reach: Floats  # length * (1 + bulge**2)
     exists: NDArray[np.bool_]  # whether it has a length
 
+    @property
+    def straight(self) -> bool:
+        """Whether all are lines."""
+        return not self.bulge.any()
+
 
 class Nearest(NamedTuple):
     """Nearest edge and vertex of points, each (n,), and where they are in the frame of that edge."""
@@ -81,7 +86,7 @@ def _nearest_block(points: Floats, edges: Edges) -> Nearest:
     x = edges.unit @ points.T - np.einsum("ij,ij->i", edges.middle, edges.unit)[:, None]
     y = edges.across @ points.T - np.einsum("ij,ij->i", edges.middle, edges.across)[:, None]
     column = np.arange(len(points))
-    if not edges.bulge.any():
+    if edges.straight:
         beyond = x - np.clip(x, -half, half)
         edge = (np.square(beyond) + y * y).argmin(axis=0)
         x, y = x[edge, column], y[edge, column]

@@ -13,7 +13,7 @@ from sketchloft.exact.changes.trial import FREE_GAIN, Change, free_gain
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.joins import end_pole, natural_joins, sole_profile
 from sketchloft.exact.model.surgery import with_run, with_split, with_wall
-from sketchloft.exact.section.rarity import rarity_of
+from sketchloft.exact.section.rarity import rarer
 from sketchloft.intervals import cheapest_chain
 from sketchloft.outline.polygons import Polygon
 from sketchloft.outline.rectilinear import RectilinearPolygon
@@ -88,11 +88,10 @@ def swaps(model: ExactModel) -> Iterator[Change]:
     for j, (run, low, high) in enumerate(model.stack.slabs()):
         for i, wall in enumerate(run.walls):
             for other in walls_like(wall, low, high):
-                nested = _extends(wall, other)
                 free = _is_free(wall) or _bends(wall, other)
                 changed = with_wall(model, j, i, other)
-                handicap = -FREE_GAIN if _is_free(wall) else max(rarity_of([other]) - rarity_of([wall]), 0.0)
-                yield Change(changed, range(j, j + 1), handicap, nested, free)
+                handicap = -FREE_GAIN if _is_free(wall) else rarer([other], [wall])
+                yield Change(changed, range(j, j + 1), handicap, free=free)
 
 
 def fillings(model: ExactModel) -> Iterator[Change]:
@@ -124,10 +123,3 @@ def _bends(wall: Wall, other: Wall) -> bool:
     if not isinstance(wall, Swept) or not isinstance(other, Swept):
         return False
     return isinstance(wall.outline, RectilinearPolygon) and isinstance(other.outline, Polygon)
-
-
-def _extends(wall: Wall, other: Wall) -> bool:
-    """Whether the other is the wall itself with more freedom to move."""
-    if not isinstance(wall, Swept) or not isinstance(other, Swept):
-        return False
-    return other.outline is wall.outline and len(other.free) > len(wall.free)

@@ -67,8 +67,6 @@ class Change:
         The runs of it that are new.
     handicap : float
         What it must gain beside its price.
-    nested : bool
-        Whether the model before it is a special case of it, which it starts from.
     free : bool
         Whether it puts a free wall in, takes one out, lets go of right corners or starts from a section found
         anew, so that its walls have far to go, or its noise must tell, and `tried_free` judges it.
@@ -77,7 +75,6 @@ class Change:
     model: ExactModel
     runs: range
     handicap: float = 0.0
-    nested: bool = False
     free: bool = False
 
     @property

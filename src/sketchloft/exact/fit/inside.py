@@ -122,6 +122,7 @@ def slopes_of(points: Floats, model: ExactModel, slabs: list[Slab]) -> tuple[Flo
         Largest movement of a wall that a unit of each parameter makes.
     """
     sigma, walls, k = model.sigma, model.size, len(model.stack.breaks)
+    # Each column in one piece: they are what is worked on.
     slope, reach = np.zeros((walls + k + 4, len(points))).T, np.zeros(walls + k + 4)
     reach[walls:-1] = 1.0
     for slab in slabs:

@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from sketchloft.cloud import Floats
+from sketchloft.cloud import Floats, Ints
 from sketchloft.exact.fit.expected import expected_points, expected_slope, wall_nodes
 from sketchloft.exact.fit.inside import share_within, slabs_of, slopes_of
 from sketchloft.exact.model.exact_model import ExactModel
@@ -129,17 +129,17 @@ def losses(points: Floats, model: ExactModel) -> Floats:
 
 def rising(points: Floats) -> Floats:
     """Points (n, 3) in the order in which those of a run are all in a row, each coordinate in one piece."""
+    return np.asfortranarray(points[_upwards(points)])
+
+
+def _upwards(points: Floats) -> slice | Ints:
+    """Order of points (n, 3) by height: as they are, where they rise already."""
     z = points[:, 2]
-    order = slice(None) if (z[1:] >= z[:-1]).all() else np.argsort(z, kind="stable")
-    return np.asfortranarray(points[order])
+    return slice(None) if (z[1:] >= z[:-1]).all() else np.argsort(z, kind="stable")
 
 
 def _share_inside(points: Floats, model: ExactModel, sigma: float, *, caps: bool = True) -> Floats:
     """Soft indicator (n,) of points in any order."""
-    z = points[:, 2]
-    if (z[1:] >= z[:-1]).all():
-        return share_within(len(points), slabs_of(points, model, sigma, caps=caps))
-    order = np.argsort(z, kind="stable")
-    inside = np.empty(len(points))
+    order, inside = _upwards(points), np.empty(len(points))
     inside[order] = share_within(len(points), slabs_of(points[order], model, sigma, caps=caps))
     return inside

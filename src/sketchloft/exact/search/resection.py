@@ -10,7 +10,7 @@ from sketchloft.exact.changes.trial import Change, tried
 from sketchloft.exact.fit.clear import clear
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.surgery import with_run
-from sketchloft.exact.section.rarity import COMMON, rarity_of
+from sketchloft.exact.section.rarity import COMMON, rarer
 from sketchloft.exact.section.segment_walls import segment_run
 from sketchloft.exact.start.first_stack import FEWEST
 from sketchloft.exact.start.start import Start
@@ -52,8 +52,8 @@ def resectioned(
                 parts.append((inner, ends, model.sigma, together, model.density))
     for j, run in zip(again, workers.each(segment_run, parts), strict=True):
         if run is not None and _kinds(run) != _kinds(model.stack.runs[j]):
-            rarer = max(rarity_of(run.walls) - rarity_of(model.stack.runs[j].walls), 0.0)
-            change = Change(with_run(model, j, run), range(j, j + 1), rarer, free=True)
+            handicap = rarer(run.walls, model.stack.runs[j].walls)
+            change = Change(with_run(model, j, run), range(j, j + 1), handicap, free=True)
             model = tried(points, model, change, together) or model
     return model
 

@@ -16,7 +16,7 @@ from sketchloft.outline.star import Star
 from sketchloft.stack import Wall
 from sketchloft.wall.swept import Swept
 
-__all__ = ["COMMON", "LAST", "may_be_free", "rarity", "rarity_of"]
+__all__ = ["COMMON", "LAST", "may_be_free", "rarer", "rarity"]
 
 COMMON = (Circle, Ellipse, Rectangle)
 """Outlines that there is no simpler one for."""
@@ -44,9 +44,10 @@ def rarity(outline: Outline) -> float:
     return 0.0 if isinstance(outline, COMMON) else max(RARE, edges)
 
 
-def rarity_of(walls: Iterable[Wall]) -> float:
-    """Log odds against the outlines of walls."""
-    return sum(rarity(wall.outline) for wall in walls if isinstance(wall, Swept))
+def rarer(walls: Iterable[Wall], before: Iterable[Wall]) -> float:
+    """By how much more the log odds are against the outlines of walls than against those before, or 0."""
+    odds = [sum(rarity(w.outline) for w in each if isinstance(w, Swept)) for each in (walls, before)]
+    return max(odds[0] - odds[1], 0.0)
 
 
 def may_be_free(outline: Outline) -> bool:

@@ -73,7 +73,8 @@ def twist_of(plan: PlanView, heights: Floats, together: float = 1.0) -> float:
     low, length = float(heights.min()), float(np.ptp(heights))
     slab = np.minimum((SLABS * (heights - low) / length).astype(int), SLABS - 1)
     z = low + length * (np.arange(SLABS) + 0.5) / SLABS
-    back = np.exp(-1j * np.linspace(-MOST_TURN, MOST_TURN, TURNS)[:, None] * z / length)
+    turns = np.linspace(-MOST_TURN, MOST_TURN, TURNS) / length
+    back = np.exp(-1j * turns[:, None] * z)
     clear = CLEAR * float(np.sqrt(together))
     best, still, twist = clear, 0.0, 0.0
     for fold in FOLDS:
@@ -83,8 +84,7 @@ def twist_of(plan: PlanView, heights: Floats, together: float = 1.0) -> float:
         peaks = np.abs(back**fold @ (real + 1j * imaginary)) / chance
         top = int(np.argmax(peaks))
         if peaks[top] > best:
-            best, still = float(peaks[top]), float(peaks[TURNS // 2])
-            twist = MOST_TURN * (2 * top / (TURNS - 1) - 1) / length
+            best, still, twist = float(peaks[top]), float(peaks[TURNS // 2]), float(turns[top])
     return twist if best > clear and best**2 - still**2 > GAIN * together else 0.0
 
 

@@ -20,19 +20,16 @@ from sketchloft.exact.start.direction import Candidate, exact_direction
 from sketchloft.exact.start.first_stack import first_stack
 from sketchloft.exact.start.inside_density import inside_density
 from sketchloft.exact.start.segments import SegmentsParams, segments
+from sketchloft.exact.start.stray_space import stray_space
 from sketchloft.frame import Frame, frame_along, principal_frame
 from sketchloft.wall.revolved import Revolved
 from sketchloft.wall.swept import Swept
 from sketchloft.workers import ALONE, Workers
 
-__all__ = ["BESIDE", "ROOM", "SEARCH_POINTS", "Start", "directions", "plain", "sampled", "start_along"]
+__all__ = ["BESIDE", "SEARCH_POINTS", "Start", "directions", "plain", "sampled", "start_along"]
 
 START = 0.006
 """Noise that the search begins with, as a share of the size."""
-ROOM = 1.5
-"""Volume that strays are taken to come from, in that of the points' convex hull, the same from all sides."""
-WIDE_ROOM = 2.5
-"""The same among strokes, which stray as wholes, and few of which fill the thin parts of a thing."""
 SEARCH_POINTS = 12_000
 """The search looks at no more points; the fit looks at all."""
 DIGITS = 6
@@ -124,8 +121,6 @@ def start_along(
     StageError
         If no section is found, or the points are on a skin.
     """
-    from scipy.spatial import ConvexHull  # noqa: PLC0415
-
     frame = frame_along(vector, points)
     local = np.round(frame.to_local(points), DIGITS)
     sample = sampled(local)
@@ -138,7 +133,6 @@ def start_along(
         )
     density = inside_density(sample, grid, together)
     cuts = segments(kept, params, clump(together) if fine else together)
-    space = (ROOM if together == 1 else WIDE_ROOM) * float(ConvexHull(sample).volume)
     first = first_stack(
         kept,
         cuts,
@@ -146,7 +140,7 @@ def start_along(
         sigma=START,
         together=together,
         density=density,
-        space=space,
+        space=stray_space(sample, together),
         rough=rough,
         workers=workers,
     )

@@ -13,8 +13,9 @@ from sketchloft.exact.changes.free_profiles import splined
 from sketchloft.exact.changes.free_walls import lofted, ruled
 from sketchloft.exact.changes.merges import merges
 from sketchloft.exact.changes.rings import rings
-from sketchloft.exact.changes.trial import Change, tried
+from sketchloft.exact.changes.trial import ENOUGH, SETTLED, Change, tried
 from sketchloft.exact.changes.worth import worth
+from sketchloft.exact.fit.climb import climb
 from sketchloft.exact.model.exact_model import ExactModel, Join
 from sketchloft.workers import ALONE, Workers
 
@@ -51,7 +52,8 @@ def improved(
     Notes
     -----
     A change that pays may bar the way to a better one: what is merged first is no chain that a free profile
-    could stand in for. So both ways are gone where there is one, and the better end is taken.
+    could stand in for. So both ways are gone where there is one, and the better end is taken: when all of each
+    is fitted, as a change is fitted around itself only.
     """
     found = _changed(points, model, together, lofts=lofts, workers=workers)
     if len(found.stack.runs) == 1:
@@ -60,7 +62,8 @@ def improved(
     if smooth is model:
         return found
     other = _changed(points, smooth, together, lofts=lofts, workers=workers)
-    return max(found, other, key=lambda end: worth(points, end, together, len(points)))
+    ends = [climb(points, end, SETTLED, enough=ENOUGH * together)[0] for end in (found, other)]
+    return max(ends, key=lambda end: worth(points, end, together, len(points)))
 
 
 def merged(points: Floats, model: ExactModel, together: float, workers: Workers = ALONE) -> ExactModel:

@@ -19,6 +19,7 @@ __all__ = [
     "BESIDE",
     "BEYOND",
     "BLURRED",
+    "ENOUGH",
     "FREE_GAIN",
     "MOST_NOISE",
     "SETTLED",

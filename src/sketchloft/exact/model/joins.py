@@ -20,12 +20,14 @@ CLOSE = 4.0
 
 
 def joined(model: ExactModel) -> ExactModel:
-    """Put every break that is no step where its walls say."""
+    """Put every break that is no step where its walls say, and steps where spheres beside them reach."""
     breaks = model.stack.breaks.copy()
     for k, join in enumerate(model.joins):
         height = _height(model, k, join)
         if height is not None:
             breaks[k] = height
+        elif 0 < k < len(breaks) - 1:
+            breaks[k] = _reached(model.stack.runs[k - 1], model.stack.runs[k], float(breaks[k]))
     breaks = np.maximum.accumulate(breaks)
     return model.moved(model.vector, breaks)
 
@@ -42,6 +44,13 @@ def natural_joins(model: ExactModel) -> ExactModel:
         if pole is not None and side * (pole - breaks[k]) < near:
             joins[k] = "pole"
     return joined(replace(model, joins=tuple(joins)))
+
+
+def _reached(below: Run, above: Run, height: float) -> float:
+    """Height nearest to a break up to which all spheres below and from which all above reach, if there is one."""
+    low = max(poles(wall)[0] for wall in above.walls)
+    high = min(poles(wall)[1] for wall in below.walls)
+    return min(max(height, low), high) if low < high else height
 
 
 def _natural(below: Run, above: Run, height: float, near: float) -> Join:

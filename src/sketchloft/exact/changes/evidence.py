@@ -52,8 +52,8 @@ def improved(
     Notes
     -----
     A change that pays may bar the way to a better one: what is merged first is no chain that a free profile
-    could stand in for. So both ways are gone where there is one, and the better end is taken: when all of each
-    is fitted, as a change is fitted around itself only.
+    could stand in for. So both ways are gone where there is one, and the better end is taken, once all of each
+    is fitted: a change is fitted around itself only.
     """
     found = _changed(points, model, together, lofts=lofts, workers=workers)
     if len(found.stack.runs) == 1:

@@ -11,10 +11,12 @@ from sketchloft.cloud import Floats, Ints
 from sketchloft.exact.model.density import Density
 from sketchloft.stack import Run, Stack, spanned
 
-__all__ = ["ExactModel", "Join", "model_of", "thicker", "tied"]
+__all__ = ["ExactModel", "Join", "Tie", "halves", "model_of", "thicker", "tied"]
 
 Slots = tuple[tuple[Ints, ...], ...]
 Join = Literal["step", "cross", "tangent", "pole"]
+Tie = tuple[tuple[int, int, int], tuple[int, int, int]]
+"""Two parameters that are one, each given as run, wall and place in the wall's vector."""
 
 
 @dataclass(frozen=True)
@@ -104,8 +106,13 @@ def model_of(stack: Stack, sigma: float, density: Density, stray: float, space: 
     return ExactModel(stack, tuple(slots), sigma, density, stray, space, joins)
 
 
-def tied(model: ExactModel, pairs: list[tuple[tuple[int, int, int], tuple[int, int, int]]]) -> ExactModel:
-    """Tie pairs of parameters, each given as run, wall and place in the wall's vector."""
+def halves(run: int) -> list[Tie]:
+    """Give the parameters that the two walls of a run have in common where they are the halves of a torus."""
+    return [((run, 0, k), (run, 1, k)) for k in range(5)]
+
+
+def tied(model: ExactModel, pairs: list[Tie]) -> ExactModel:
+    """Tie pairs of parameters."""
     owner = np.arange(model.size)
     for (r0, w0, k0), (r1, w1, k1) in pairs:
         first, second = owner[model.slots[r0][w0][k0]], owner[model.slots[r1][w1][k1]]

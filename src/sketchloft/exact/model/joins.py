@@ -47,7 +47,7 @@ def natural_joins(model: ExactModel) -> ExactModel:
 
 
 def _reached(below: Run, above: Run, height: float) -> float:
-    """Height nearest to a break up to which all spheres below and from which all above reach, if there is one."""
+    """Height nearest to a break that all spheres below and above it reach, if there is one."""
     low = max(poles(wall)[0] for wall in above.walls)
     high = min(poles(wall)[1] for wall in below.walls)
     return min(max(height, low), high) if low < high else height

@@ -1,4 +1,4 @@
-"""Surgery: models with a run taken out, put in, or changed, all else as it was."""
+"""Surgery: models with a run taken out, put in, or changed, all else as it was but ties: tori stay whole."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from sketchloft.exact.model.exact_model import ExactModel, model_of
+from sketchloft.exact.model.exact_model import ExactModel, halves, model_of, tied
 from sketchloft.exact.model.joins import natural_joins
 from sketchloft.stack import Run, Stack, Wall
 
@@ -50,4 +50,5 @@ def without_run(model: ExactModel, index: int, heir: int | None) -> ExactModel:
 
 def _rebuilt(model: ExactModel, stack: Stack) -> ExactModel:
     fresh = model_of(stack, model.sigma, model.density, model.stray, model.space)
-    return natural_joins(replace(fresh, core=model.core))
+    tori = [tie for j, run in enumerate(stack.runs) if run.torus is not None for tie in halves(j)]
+    return natural_joins(replace(tied(fresh, tori) if tori else fresh, core=model.core))

@@ -12,7 +12,7 @@ from sketchloft.exact.changes.worth import worth
 from sketchloft.exact.fit.climb import climb
 from sketchloft.exact.fit.likelihood import beside_walls
 from sketchloft.exact.fit.tilt import onto_z
-from sketchloft.exact.model.exact_model import ExactModel, tied
+from sketchloft.exact.model.exact_model import ExactModel, Tie, halves, tied
 from sketchloft.exact.model.joins import natural_joins
 from sketchloft.stack import Wall
 from sketchloft.wall.profile import ArcProfile
@@ -77,20 +77,20 @@ def _sphere_turned(wall: Wall, turn: Floats) -> Wall:
     return Revolved(np.array([x, y]), replace(wall.profile, height=height))
 
 
-def _tangents(model: ExactModel) -> list[tuple[tuple[int, int, int], tuple[int, int, int]]]:
+def _tangents(model: ExactModel) -> list[Tie]:
     """Radii of spheres and of the cylinders they run into."""
     place = {"cylinder": 2, "sphere": 3}
     radius = [(j, 0, place.get(run.walls[0].kind, 0)) for j, run in enumerate(model.stack.runs)]
     return [(radius[k - 1], radius[k]) for k, join in enumerate(model.joins) if join == "tangent"]
 
 
-def _rings(model: ExactModel) -> list[tuple[tuple[int, int, int], tuple[int, int, int]]]:
-    """Heights, radii and offsets of the two walls of a run that may be the halves of one torus."""
+def _rings(model: ExactModel) -> list[Tie]:
+    """What the two walls of a run have in common that may be the halves of one torus."""
     return [
-        ((j, 0, k), (j, 1, k))
+        tie
         for j, run in enumerate(model.stack.runs)
         if run.holes == 1 and [wall.kind for wall in run.walls] == ["torus", "torus"]
-        for k in (2, 3, 4)
+        for tie in halves(j)
     ]
 
 

@@ -13,6 +13,7 @@ from sketchloft.exact.changes.free_profiles import splined
 from sketchloft.exact.changes.free_walls import lofted, ruled
 from sketchloft.exact.changes.merges import merges
 from sketchloft.exact.changes.rings import rings
+from sketchloft.exact.changes.round_ends import round_ends
 from sketchloft.exact.changes.trial import ENOUGH, SETTLED, Change, tried
 from sketchloft.exact.changes.worth import worth
 from sketchloft.exact.fit.climb import climb
@@ -52,8 +53,8 @@ def improved(
     Notes
     -----
     A change that pays may bar the way to a better one: what is merged first is no chain that a free profile
-    could stand in for. So both ways are gone where there is one, and the better end is taken, once all of each
-    is fitted: a change is fitted around itself only.
+    could stand in for. So both ways are gone where there is one, and the better end is taken, when each is
+    fitted as a whole: a change is fitted around itself only.
     """
     found = _changed(points, model, together, lofts=lofts, workers=workers)
     if len(found.stack.runs) == 1:
@@ -94,7 +95,7 @@ def _changed(
     for _ in range(ROUNDS):
         before = model
         model = through(model, merges, again=True)
-        for changes in (fillings, rings, closings):
+        for changes in (fillings, rings, closings, round_ends):
             model = through(model, changes)
         model = splined(points, model, together, workers=workers)
         model = through(model, lambda m: splits(points, m, together))

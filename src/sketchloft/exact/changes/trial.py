@@ -19,6 +19,7 @@ __all__ = [
     "BESIDE",
     "BEYOND",
     "BLURRED",
+    "CHAIN_GAIN",
     "ENOUGH",
     "FREE_GAIN",
     "MOST_NOISE",

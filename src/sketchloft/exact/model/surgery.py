@@ -7,11 +7,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from sketchloft.exact.model.exact_model import ExactModel, halves, model_of, tied
-from sketchloft.exact.model.joins import natural_joins
+from sketchloft.exact.model.exact_model import ExactModel, Tie, halves, model_of, tied
+from sketchloft.exact.model.joins import natural_joins, sole_profile
 from sketchloft.stack import Run, Stack, Wall
 
 __all__ = ["with_run", "with_runs", "with_split", "with_wall", "without_run"]
+
+RADIUS = {"cylinder": 2, "sphere": 3}
+"""Where the radius is among the parameters of a wall."""
 
 
 def with_runs(model: ExactModel, first: int, last: int, run: Run) -> ExactModel:
@@ -50,5 +53,20 @@ def without_run(model: ExactModel, index: int, heir: int | None) -> ExactModel:
 
 def _rebuilt(model: ExactModel, stack: Stack) -> ExactModel:
     fresh = model_of(stack, model.sigma, model.density, model.stray, model.space)
-    tori = [tie for j, run in enumerate(stack.runs) if run.torus is not None for tie in halves(j)]
-    return natural_joins(replace(tied(fresh, tori) if tori else fresh, core=model.core))
+    ties = [tie for j, run in enumerate(stack.runs) if run.torus is not None for tie in halves(j)]
+    ties += [
+        tie for j in range(1, len(stack.runs)) for tie in _round_end(stack.runs[j - 1], stack.runs[j], j)
+    ]
+    return natural_joins(replace(tied(fresh, ties) if ties else fresh, core=model.core))
+
+
+def _round_end(below: Run, above: Run, j: int) -> list[Tie]:
+    """What a cylinder and a sphere of exactly the same axis and radius have in common."""
+    first, second = sole_profile(below), sole_profile(above)
+    if first is None or second is None or {first.kind, second.kind} != set(RADIUS):
+        return []
+    places = [
+        ((j - 1, 0, k), (j, 0, m)) for k, m in ((0, 0), (1, 1), (RADIUS[first.kind], RADIUS[second.kind]))
+    ]
+    same = all(first.vector[one[2]] == second.vector[other[2]] for one, other in places)
+    return places if same else []

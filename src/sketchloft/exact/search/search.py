@@ -19,6 +19,7 @@ from sketchloft.exact.model.exact_model import ExactModel, thicker
 from sketchloft.exact.model.joins import natural_joins
 from sketchloft.exact.model.soundness import sound
 from sketchloft.exact.search.absorbed import without_absorbed
+from sketchloft.exact.search.as_capsule import as_capsule
 from sketchloft.exact.search.coaxial import coaxial
 from sketchloft.exact.search.flush import flush
 from sketchloft.exact.search.resection import resectioned
@@ -100,6 +101,8 @@ def search(
     model = improved(sample @ turn, model, together, lofts=lofts, workers=workers)
     if tilt:
         model, rotation = upended(sample @ turn, start.merged, model, together, lofts=lofts, workers=workers)
+        turn = turn @ rotation
+        model, rotation = as_capsule(sample @ turn, model, together)
         turn = turn @ rotation
         model, rotation = upright(sample @ turn, model, together)
         turn = turn @ rotation

@@ -1,0 +1,60 @@
+"""Round ends: revolved runs at the ends of a stack that may end with half a sphere of their own radius."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from sketchloft.cloud import Floats
+from sketchloft.exact.changes.trial import CHAIN_GAIN, FREE_GAIN, Change
+from sketchloft.exact.model.exact_model import ExactModel
+from sketchloft.exact.model.joins import sole_profile
+from sketchloft.exact.model.surgery import with_split
+from sketchloft.wall.profile import ArcProfile, LineProfile, Profile, SplineProfile
+from sketchloft.wall.revolved import Revolved, radius_at
+
+__all__ = ["capped", "round_ends"]
+
+HEIGHTS = 25
+SHORTEST = 0.2
+"""Length of the cylinder between round ends at least, in its radius: what is shorter is a sphere."""
+SIDES = ((-1, 1), (-1,), (1,))
+
+
+def round_ends(model: ExactModel) -> Iterator[Change]:
+    """A cylinder with half a sphere at both ends, or at one, in the place of a revolved run at an end.
+
+    Notes
+    -----
+    The halves have the axis and the radius of the cylinder from the start, so that three runs have no more
+    numbers than one. Otherwise a curve that follows a few points takes the place of both ends.
+    """
+    last = len(model.stack.runs) - 1
+    for j, (run, low, high) in enumerate(model.stack.slabs()):
+        wall = sole_profile(run)
+        if wall is None or isinstance(wall.profile, ArcProfile):
+            continue
+        free = isinstance(wall.profile, SplineProfile)
+        radius = float(np.median(radius_at(wall.profile, np.linspace(low, high, HEIGHTS))[0]))
+        for sides in SIDES:
+            at_ends = (j == 0 or -1 not in sides) and (j == last or 1 not in sides)
+            if at_ends and high - low > (len(sides) + SHORTEST) * radius:
+                heights, walls = capped(wall.centre, radius, (low, high), sides)
+                simpler = (CHAIN_GAIN if len(walls) > 2 else FREE_GAIN) if free else 0.0
+                split = with_split(model, j, heights, walls)
+                yield Change(split, range(j, j + len(walls)), -simpler, free=free)
+
+
+def capped(
+    centre: Floats, radius: float, ends: tuple[float, float], sides: tuple[int, ...]
+) -> tuple[list[float], list[Revolved]]:
+    """Walls of a cylinder with half a sphere at some sides, -1 and 1, and the heights between them."""
+    low, high = ends[0] + radius * (-1 in sides), ends[1] - radius * (1 in sides)
+    profiles: list[Profile] = [LineProfile((low + high) / 2, radius, None)]
+    if -1 in sides:
+        profiles.insert(0, ArcProfile(low, None, radius))
+    if 1 in sides:
+        profiles.append(ArcProfile(high, None, radius))
+    heights = [height for side, height in ((-1, low), (1, high)) if side in sides]
+    return heights, [Revolved(centre, profile) for profile in profiles]

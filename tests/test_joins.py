@@ -81,3 +81,13 @@ def test_steps_stay_steps() -> None:
         found = natural_joins(model)
         assert found.joins[1] == "step"
         assert found.stack.breaks[1] == model.stack.breaks[1]
+
+
+def test_a_step_stays_where_the_spheres_beside_it_reach() -> None:
+    """A break above the ball below it would leave what is on top hanging on nothing."""
+    away = Revolved(AXIS + 0.1, ArcProfile(0.1, None, 0.2))
+    stack = Stack(np.array([-0.45, 0.07, 0.3]), (ball(*BALLS[0]), Run((away,))))
+    model = joined(model_of(stack, 0.004, Density(np.zeros(1)), 1.0, 1.0))
+    assert model.stack.breaks == pytest.approx([-0.45, 0.05, 0.3])
+    apart = Stack(np.array([-0.45, 0.07, 0.5]), (ball(*BALLS[0]), ball(0.3, 0.2)))
+    assert joined(model_of(apart, 0.004, Density(np.zeros(1)), 1.0, 1.0)).stack.breaks[1] == 0.07

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -109,7 +111,7 @@ def test_a_ring_of_three_runs_is_taken_for_one_torus_first() -> None:
     breaks = np.array([-0.15, -0.08, 0.08, 0.15])
     torus = [Revolved(ORIGIN, ArcProfile(0.0, 0.4, 0.15, side)) for side in (1, -1)]
     runs = []
-    for low, high in zip(breaks[:-1], breaks[1:], strict=True):
+    for low, high in pairwise(breaks.tolist()):
         radii = [np.sqrt(wall.area(np.array([(low + high) / 2]))[0] / np.pi) for wall in torus]
         walls: list[Wall] = [Swept(Circle(ORIGIN, r), (low + high) / 2, ORIGIN, ORIGIN) for r in radii]
         runs.append(Run(tuple(walls), 1))

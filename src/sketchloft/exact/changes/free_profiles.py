@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from sketchloft.cloud import Floats
@@ -38,50 +40,73 @@ def splined(
     H. Akaike, A new look at the statistical model identification, IEEE Trans. Autom. Control 19 (1974).
     """
     start = 0
+    while True:
+        seen: list[tuple[range, int]] = []
+        changes = _first_changes(points, model, (start, fewest), together, seen)
+        found = workers.first(tried, ((points, model, change, together) for change in changes))
+        if found is None:
+            return model
+        chain, place = seen[found[0]]
+        model, start = _with_more_spans(points, found[1], chain, place, together), chain.start + 1
+
+
+def _first_changes(
+    points: Floats, model: ExactModel, sought: tuple[int, int], together: float, seen: list[tuple[range, int]]
+) -> Iterator[Change]:
+    """A free profile for each chain from a run on, of so many runs or more, with few spans and with more.
+
+    As they are given the chain and the place of the spans are noted.
+    """
+    start, fewest = sought
+    for chain in _chains(model, start):
+        if len(chain) < max(fewest, 1) or _right(points, model, chain, together):
+            continue
+        entry = 0.0
+        if not _has_spline(model, chain):
+            tangents = model.joins[chain.start + 1 : chain.stop].count("tangent")
+            entry = free_gain(len(chain), tangents, len(points), together)
+        for place, spans in enumerate(SPANS if len(chain) > 1 else [*SPANS][:1]):
+            seen.append((chain, place))
+            yield Change(_with_spline(points, model, chain, spans), _one(chain), entry, free=True)
+
+
+def _chains(model: ExactModel, start: int) -> Iterator[range]:
+    """Chains, from a run on, of revolved runs that go on where the last one ended."""
     while start < len(model.stack.runs):
         stop = start
         while stop < len(model.stack.runs) and sole_profile(model.stack.runs[stop]) is not None:
             if stop > start and not _continuous(model, stop):
                 break
             stop += 1
-        if stop - start < max(fewest, 1) or _right(points, model, range(start, stop), together):
-            start = max(stop, start + 1)
-            continue
-        better = _best_profile(points, model, range(start, stop), together, workers)
-        start = stop if better is None else start + 1
-        model = better or model
+        if stop > start:
+            yield range(start, stop)
+        start = max(stop, start + 1)
+
+
+def _with_more_spans(
+    points: Floats, model: ExactModel, chain: range, place: int, together: float
+) -> ExactModel:
+    """The model with more spans in the free profile that stands for a chain, as long as that pays."""
+    one = _one(chain)
+    for spans, each in [*SPANS.items()][place + 1 :]:
+        change = _with_spline(points, model, one, spans)
+        more = change.parameters - model.parameters
+        handicap = each * more - price(more, len(points), together)
+        better = tried(points, model, Change(change, one, handicap, free=True), together)
+        if better is None:
+            break
+        model = better
     return model
 
 
-def _best_profile(
-    points: Floats, model: ExactModel, runs: range, together: float, workers: Workers
-) -> ExactModel | None:
-    """The model with a free profile in the place of some runs, of the fewest spans that pay, or more."""
-    entry = 0.0
-    if not _has_spline(model, runs):
-        tangents = model.joins[runs.start + 1 : runs.stop].count("tangent")
-        entry = free_gain(len(runs), tangents, len(points), together)
-    one, sizes = range(runs.start, runs.start + 1), list(SPANS.items())
+def _one(chain: range) -> range:
+    """The run that stands for a chain."""
+    return range(chain.start, chain.start + 1)
 
-    def with_spline(source: ExactModel, runs: range, spans: int) -> ExactModel:
-        wall = _spline_through(points, source, runs.start, runs.stop, spans)
-        return with_runs(source, runs.start, runs.stop - 1, Run((wall,)))
 
-    firsts = sizes if len(runs) > 1 else sizes[:1]
-    changes = (Change(with_spline(model, runs, spans), one, entry, free=True) for spans, _ in firsts)
-    found = workers.first(tried, ((points, model, change, together) for change in changes))
-    if found is None:
-        return None
-    place, best = found
-    for spans, each in sizes[place + 1 :]:
-        change = with_spline(best, one, spans)
-        more = change.parameters - best.parameters
-        handicap = each * more - price(more, len(points), together)
-        better = tried(points, best, Change(change, one, handicap, free=True), together)
-        if better is None:
-            break
-        best = better
-    return best
+def _with_spline(points: Floats, model: ExactModel, chain: range, spans: int) -> ExactModel:
+    wall = _spline_through(points, model, chain.start, chain.stop, spans)
+    return with_runs(model, chain.start, chain.stop - 1, Run((wall,)))
 
 
 def _has_spline(model: ExactModel, runs: range) -> bool:

@@ -50,7 +50,7 @@ def resectioned(
             if len(inner) >= FEWEST:
                 again.append(j)
                 parts.append((inner, ends, model.sigma, together, model.density))
-    for j, run in zip(again, workers.each(segment_run, parts), strict=True):
+    for j, run in zip(again, [segment_run(*part, workers=workers) for part in parts], strict=True):
         if run is not None and _kinds(run) != _kinds(model.stack.runs[j]):
             handicap = rarer(run.walls, model.stack.runs[j].walls)
             change = Change(with_run(model, j, run), range(j, j + 1), handicap, free=True)

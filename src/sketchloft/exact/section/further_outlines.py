@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from typing import Protocol
 
 import numpy as np
 
@@ -27,8 +27,14 @@ AROUND = 160
 NEARLY = 25.0
 """Evidence by which a spline of few poles, or many edges, may be behind and yet one of more be the best."""
 
-Attempt = Callable[[Outline], float]
-"""Fits an outline, notes it, and says how likely it is."""
+
+class Attempt(Protocol):
+    """Fits outlines, notes them, and says how likely they are."""
+
+    def __call__(self, *outlines: Outline) -> list[float]:
+        """Evidence of each."""
+
+
 Tried = list[tuple[float, Outline]]
 """Evidence of outlines, and the outlines as fitted."""
 
@@ -37,18 +43,15 @@ def attempt_corners(attempt: Attempt, tried: Tried, ring: Floats, blur: float) -
     """Try outlines with corners, and the best polygon with fewer and fewer of them."""
     cut = chains(ring, blur)
     polygon = next((outline for outline in cut if isinstance(outline, Polygon)), None)
-    for outline in (*cut, *polygons(ring, polygon, blur)):
-        attempt(outline)
     # Where points are few, they tell the angle better than the contour.
-    for outline in [found for _, found in tried if isinstance(found, Ellipse)]:
-        attempt(rectangle_like(outline))
+    by_points = [rectangle_like(found) for _, found in tried if isinstance(found, Ellipse)]
     star = star_in(ring)
-    if star is not None:
-        attempt(star)
+    stars = [] if star is None else [star]
+    attempt(*cut, *polygons(ring, polygon, blur), *by_points, *stars)
     plain = [found for found in tried if isinstance(found[1], Polygon)]
     value, outline = max(plain or tried, key=lambda found: found[0])
     while isinstance(outline, Polygon) and len(outline.vertices) > 3:
-        simpler = attempt(_simpler(outline))
+        (simpler,) = attempt(_simpler(outline))
         if simpler < value:
             break
         value, outline = tried[-1]
@@ -63,7 +66,7 @@ def _attempt_right_corners(attempt: Attempt, tried: Tried) -> None:
         value = -np.inf
         while outline is not None and len(outline.offsets) not in seen:
             seen.add(len(outline.offsets))
-            simpler = attempt(outline)
+            (simpler,) = attempt(outline)
             if simpler < value:
                 break
             value, outline = simpler, with_a_step_less(outline)
@@ -71,10 +74,10 @@ def _attempt_right_corners(attempt: Attempt, tried: Tried) -> None:
 
 def attempt_splines(attempt: Attempt, tried: Tried, ring: Floats) -> None:
     """Try splines of more poles; where one crosses itself in bays of the contour, from the best so far."""
-    for poles in POLES:
-        if not np.isfinite(attempt(spline_of(ring, poles))):
-            splines = [found for found in tried if isinstance(found[1], SplineLoop)]
-            attempt(fitted_loop(likeliest(splines).boundary(AROUND).points, poles))
+    values = attempt(*(spline_of(ring, poles) for poles in POLES))
+    crossed = [poles for poles, value in zip(POLES, values, strict=True) if not np.isfinite(value)]
+    best = likeliest([found for found in tried if isinstance(found[1], SplineLoop)]).boundary(AROUND).points
+    attempt(*(fitted_loop(best, poles) for poles in crossed))
 
 
 def nearly_free(tried: Tried) -> bool:

@@ -24,6 +24,7 @@ from sketchloft.wall.dome import taper_and_bow
 from sketchloft.wall.profile import ArcProfile, LineProfile, SplineProfile
 from sketchloft.wall.revolved import Revolved
 from sketchloft.wall.swept import Freedom, Swept
+from sketchloft.workers import ALONE, Workers
 
 __all__ = ["segment_run", "tori"]
 
@@ -40,6 +41,7 @@ def segment_run(
     density: Density,
     *,
     rough: bool = False,
+    workers: Workers = ALONE,
 ) -> Run | None:
     """Find the walls of a segment; None if its points have no section.
 
@@ -57,6 +59,7 @@ def segment_run(
         Inside, about.
     rough : bool
         Whether a few kinds of sections will do.
+    workers : Workers, optional
     """
     in_row = clump(together)
     plan = plan_view(points, in_row)
@@ -64,14 +67,14 @@ def segment_run(
     twist = twist_of(plan, heights, in_row)
     if twist:
         plan = untwisted(plan, heights, twist)
-    shape = recognise_section(plan.points, together, rough=rough)
+    shape = recognise_section(plan.points, together, rough=rough, workers=workers)
     if shape is None:
         return None
     every = len(points) // MOST_POINTS + 1
     points, together = points[::every], thinned(together, every)
     best: tuple[float, ExactModel] | None = None
-    for run in _runs(plan, shape, ends, twist):
-        model = _fitted(points, run, ends, sigma, density)
+    runs = _runs(plan, shape, ends, twist)
+    for model in workers.each(_fitted, [(points, run, ends, sigma, density) for run in runs]):
         walls = model.stack.runs[0].walls
         if not all(covers(wall, ends[0] - REACH, ends[1] + REACH) for wall in walls):
             continue

@@ -43,10 +43,7 @@ def first_stack(
         if high - low >= blur and len(inner) >= FEWEST:
             spans.append((low, high))
             parts.append((inner, (low + margin, high - margin), sigma, together, density))
-    longest = sorted(range(len(parts)), key=lambda k: -len(parts[k][0]))
-    found = dict(
-        zip(longest, workers.each(segment_run, [parts[k] for k in longest], rough=rough), strict=True)
-    )
+    found = [segment_run(*part, rough=rough, workers=workers) for part in parts]
     runs: list[Run] = []
     breaks: list[float] = []
     last = float(cuts[0])

@@ -9,7 +9,16 @@ from numpy.typing import ArrayLike
 
 from sketchloft.cloud import Floats, Ints
 
-__all__ = ["SkinSurface", "basis_matrix", "distinct_knots", "evaluate", "even_knots", "local_basis"]
+__all__ = [
+    "SkinSurface",
+    "basis_matrix",
+    "distinct_knots",
+    "evaluate",
+    "even_knots",
+    "local_bases",
+    "local_basis",
+    "spline_at",
+]
 
 
 @dataclass(frozen=True)
@@ -117,23 +126,34 @@ def local_basis(knots: Floats, degree: int, at: ArrayLike, derivative: int = 0) 
 
     As `basis_matrix`, without the zeros.
     """
+    first, values, slopes = local_bases(knots, degree, at)
+    return first, slopes if derivative else values
+
+
+def spline_at(knots: Floats, degree: int, poles: Floats, at: ArrayLike) -> tuple[Floats, Floats]:
+    """Values (m,) and first derivatives of the spline of poles (n,) at parameters (m,)."""
+    first, values, slopes = local_bases(knots, degree, at)
+    near = poles[first[:, None] + np.arange(degree + 1)]
+    return np.einsum("ij,ij->i", values, near), np.einsum("ij,ij->i", slopes, near)
+
+
+def local_bases(knots: Floats, degree: int, at: ArrayLike) -> tuple[Ints, Floats, Floats]:
+    """Values and first derivatives at once, as `local_basis` gives either."""
     x = np.clip(np.atleast_1d(np.asarray(at, dtype=np.float64)), knots[0], knots[-1])
     span = np.clip(np.searchsorted(knots, x, side="right") - 1, degree, len(knots) - degree - 2)
-    values = np.zeros((len(x), degree + 1))
-    values[:, 0] = 1.0
-    for p in range(1, degree + 1 - derivative):
-        saved = np.zeros(len(x))
+    # Functions by rows: the long axis last is what vectorised arithmetic likes.
+    beside = knots[span + np.arange(1 - degree, degree + 1)[:, None]]
+    below, above = x - beside[degree - 1 :: -1], beside[degree:] - x
+    values = np.ones((1, len(x)))
+    lower = values
+    for p in range(1, degree + 1):
+        lower, values = values, np.zeros((p + 1, len(x)))
         for r in range(p):
-            high, low = knots[span + r + 1], knots[span + r + 1 - p]
-            share = values[:, r] / (high - low)
-            values[:, r] = saved + (high - x) * share
-            saved = (x - low) * share
-        values[:, p] = saved
-    if derivative:
-        index = span[:, None] + np.arange(1 - degree, 1)
-        slopes = degree * values[:, :-1] / (knots[index + degree] - knots[index])
-        values = -np.diff(slopes, axis=1, prepend=0.0, append=0.0)
-    return span - degree, values
+            share = lower[r] / (above[r] + below[p - 1 - r])
+            values[r] += above[r] * share
+            values[r + 1] = below[p - 1 - r] * share
+    rates = degree * lower / (beside[degree:] - beside[:degree])
+    return span - degree, values.T, -np.diff(rates, axis=0, prepend=0.0, append=0.0).T
 
 
 def _blend(rows: Floats, around: tuple[Ints, Floats], along: tuple[Ints, Floats]) -> Floats:

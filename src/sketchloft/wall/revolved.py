@@ -10,7 +10,7 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.gauss import gauss
-from sketchloft.surface import basis_matrix
+from sketchloft.surface import basis_matrix, spline_at
 from sketchloft.wall.foot import WallBoundary, WallFoot
 from sketchloft.wall.profile import ArcProfile, LineProfile, Profile, SplineProfile
 
@@ -106,8 +106,7 @@ def radius_at(profile: Profile, heights: Floats) -> tuple[Floats, Floats]:
             lean = -side * dz / np.maximum(half, max(1e-9 * radius, TINY))
             return np.maximum((offset or 0.0) + side * half, 0.0), lean
         case SplineProfile(knots, radii):
-            values = basis_matrix(knots, SplineProfile.degree, heights) @ radii
-            rise: Floats = basis_matrix(knots, SplineProfile.degree, heights, 1) @ radii
+            values, rise = spline_at(knots, SplineProfile.degree, radii, heights)
             return np.maximum(values, 0.0), rise
 
 
@@ -185,7 +184,10 @@ def _profile_foot(
 
             return side * (length - radius), n_r, n_z, by_arc, side / length
         case SplineProfile(knots, radii):
-            basis = basis_matrix(knots, SplineProfile.degree, z)
-            rise: Floats = basis_matrix(knots, SplineProfile.degree, z, 1) @ radii
+            values, rise = spline_at(knots, SplineProfile.degree, radii, z)
             c = 1 / np.hypot(1.0, rise)
-            return c * (r - basis @ radii), c, -rise * c, lambda: list(-c * basis.T), np.zeros(len(r))
+
+            def by_spline() -> list[Floats]:
+                return list(-c * basis_matrix(knots, SplineProfile.degree, z).T)
+
+            return c * (r - values), c, -rise * c, by_spline, np.zeros(len(r))

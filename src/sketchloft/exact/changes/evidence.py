@@ -17,6 +17,7 @@ from sketchloft.exact.changes.round_ends import round_ends
 from sketchloft.exact.changes.trial import ENOUGH, SETTLED, Change, tried
 from sketchloft.exact.changes.worth import worth
 from sketchloft.exact.fit.climb import climb
+from sketchloft.exact.fit.likelihood import rising
 from sketchloft.exact.model.exact_model import ExactModel, Join
 from sketchloft.workers import ALONE, Workers
 
@@ -56,6 +57,7 @@ def improved(
     could stand in for. So both ways are gone where there is one, and the better end is taken, when each is
     fitted as a whole: a change is fitted around itself only.
     """
+    points = rising(points)  # once for all that look at them
     found = _changed(points, model, together, lofts=lofts, workers=workers)
     if len(found.stack.runs) == 1:
         return found
@@ -79,7 +81,7 @@ def merged(points: Floats, model: ExactModel, together: float, workers: Workers 
         How many of the points go together.
     workers : Workers, optional
     """
-    return _through(points, model, together, merges, set(), again=True, workers=workers)
+    return _through(rising(points), model, together, merges, set(), again=True, workers=workers)
 
 
 def _changed(

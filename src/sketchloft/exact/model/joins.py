@@ -15,6 +15,8 @@ from sketchloft.wall.swept import Swept
 
 __all__ = ["crossing", "end_pole", "joined", "natural_joins", "poles", "sole_profile"]
 
+COARSE, FINE = 65, 1025
+"""Heights at which two walls are compared, over all their reach and then between two of these."""
 CLOSE = 4.0
 """Walls that come this near to each other at a break, or to the axis at an end, in noise deviations, meet."""
 
@@ -124,18 +126,20 @@ def crossing(below: Run, above: Run, height: float, reach: float) -> float | Non
     first, second = sole_profile(below), sole_profile(above)
     if first is None or second is None:
         return None
-    z = height + reach * np.linspace(-1, 1, 65)
+    z = height + reach * np.linspace(-1, 1, COARSE)
     for wall in (first, second):
         low, high = ends_of(wall.profile)
         z = z[(z >= low) & (z <= high)]
-    for _ in range(6):
+    for _ in range(2):
         gap = _gap(first, second, z)
         change = np.flatnonzero(gap[:-1] * gap[1:] <= 0)
         if not len(change):
             return None
         i = change[np.argmin(np.abs((z[change] + z[change + 1]) / 2 - height))]
-        z = np.linspace(z[i], z[i + 1], 65)
-    return float(z[32])
+        ends, beside = z[[i, i + 1]], gap[[i, i + 1]]
+        z = np.linspace(ends[0], ends[1], FINE)
+    low, high = beside.tolist()
+    return float(ends[0] + (ends[1] - ends[0]) * (low / (low - high) if low != high else 0.5))
 
 
 def _gap(first: Revolved, second: Revolved, z: Floats) -> Floats:

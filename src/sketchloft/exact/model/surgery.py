@@ -11,7 +11,7 @@ from sketchloft.exact.model.exact_model import ExactModel, Tie, halves, model_of
 from sketchloft.exact.model.joins import natural_joins, sole_profile
 from sketchloft.stack import Run, Stack, Wall
 
-__all__ = ["with_run", "with_runs", "with_split", "with_wall", "without_run"]
+__all__ = ["RADIUS", "with_run", "with_runs", "with_split", "with_wall", "without_run"]
 
 RADIUS = {"cylinder": 2, "sphere": 3}
 """Where the radius is among the parameters of a wall."""

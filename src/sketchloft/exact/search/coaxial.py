@@ -14,6 +14,7 @@ from sketchloft.exact.fit.likelihood import beside_walls
 from sketchloft.exact.fit.tilt import onto_z
 from sketchloft.exact.model.exact_model import ExactModel, Tie, halves, tied
 from sketchloft.exact.model.joins import natural_joins
+from sketchloft.exact.model.surgery import RADIUS
 from sketchloft.stack import Wall
 from sketchloft.wall.profile import ArcProfile
 from sketchloft.wall.revolved import Revolved
@@ -79,8 +80,7 @@ def _sphere_turned(wall: Wall, turn: Floats) -> Wall:
 
 def _tangents(model: ExactModel) -> list[Tie]:
     """Radii of spheres and of the cylinders they run into."""
-    place = {"cylinder": 2, "sphere": 3}
-    radius = [(j, 0, place.get(run.walls[0].kind, 0)) for j, run in enumerate(model.stack.runs)]
+    radius = [(j, 0, RADIUS.get(run.walls[0].kind, 0)) for j, run in enumerate(model.stack.runs)]
     return [(radius[k - 1], radius[k]) for k, join in enumerate(model.joins) if join == "tangent"]
 
 

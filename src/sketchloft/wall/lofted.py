@@ -10,7 +10,7 @@ import numpy as np
 from sketchloft.cloud import Floats, Ints
 from sketchloft.gauss import gauss
 from sketchloft.periodic_cubic import basis_at, locate, pieces
-from sketchloft.surface import basis_matrix, even_knots, local_basis
+from sketchloft.surface import basis_matrix, even_knots, local_bases
 from sketchloft.wall.foot import WallBoundary, WallFoot
 
 __all__ = ["Lofted", "lofted"]
@@ -91,7 +91,7 @@ class Lofted:
         z = np.clip(points[:, 2], self.knots[0], self.knots[-1])
         count = self.poles.shape[1]
         cells = np.stack([pieces(row) for row in self.poles]).transpose(0, 3, 1, 2).reshape(-1, count, 8)
-        first, along = local_basis(self.knots, self.degree, z)
+        first, along, upwards = local_bases(self.knots, self.degree, z)
         rows = first[:, None] + np.arange(self.degree + 1)
         u = self._nearest(points[:, :2], z)
         for _ in range(NEWTON):
@@ -107,7 +107,7 @@ class Lofted:
         gap = points[:, :2] - at
         flat = np.hypot(gap[:, 0], gap[:, 1])
         side = np.sign(np.einsum("ij,ij->i", gap, across))
-        steep = _curve(cells, rows, local_basis(self.knots, self.degree, z, 1)[1], u)[0]
+        steep = _curve(cells, rows, upwards, u)[0]
         slope = -np.einsum("ij,ij->i", across, steep)
         c = 1 / np.hypot(1.0, slope)
         bend = (d1[:, 0] * d2[:, 1] - d1[:, 1] * d2[:, 0]) / speed**3
@@ -116,20 +116,18 @@ class Lofted:
         by_ends = -normal[:, 2:] * np.column_stack([1 - share, share])
 
         def slopes() -> Floats:
-            return self._gradient(z, u, across) * -c[:, None]
+            return self._gradient(rows, along, u, across) * -c[:, None]
 
         return WallFoot(c * side * flat, normal, slopes, c * bend, by_ends)
 
-    def _gradient(self, z: Floats, u: Floats, across: Floats) -> Floats:
+    def _gradient(self, i: Ints, along: Floats, u: Floats, across: Floats) -> Floats:
         """Movement (n, p) of the wall across itself by each pole's displacement; 16 poles matter."""
         rows, count = self.poles.shape[:2]
-        first, along = local_basis(self.knots, self.degree, z)
-        i = first[:, None] + np.arange(self.degree + 1)
         j, around = basis_at(*locate(u, count), count)
         lean = np.einsum("nijd,nd->nij", self.normals[i[:, :, None], j[:, None, :]], across)
-        place = (i[:, :, None] * count + j[:, None, :]).reshape(len(z), -1)
-        gradient = np.zeros((len(z), rows * count))
-        values = (along[:, :, None] * around[:, None, :] * lean).reshape(len(z), -1)
+        place = (i[:, :, None] * count + j[:, None, :]).reshape(len(u), -1)
+        gradient = np.zeros((len(u), rows * count))
+        values = (along[:, :, None] * around[:, None, :] * lean).reshape(len(u), -1)
         np.put_along_axis(gradient, place, values, axis=1)
         return gradient
 

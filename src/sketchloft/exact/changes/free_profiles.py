@@ -41,21 +41,21 @@ def splined(
     """
     start = 0
     while True:
-        seen: list[tuple[range, int]] = []
+        seen: list[tuple[int, int]] = []
         changes = _first_changes(points, model, (start, fewest), together, seen)
         found = workers.first(tried, ((points, model, change, together) for change in changes))
         if found is None:
             return model
-        chain, place = seen[found[0]]
-        model, start = _with_more_spans(points, found[1], chain, place, together), chain.start + 1
+        j, place = seen[found[0]]
+        model, start = _with_more_spans(points, found[1], j, place, together), j + 1
 
 
 def _first_changes(
-    points: Floats, model: ExactModel, sought: tuple[int, int], together: float, seen: list[tuple[range, int]]
+    points: Floats, model: ExactModel, sought: tuple[int, int], together: float, seen: list[tuple[int, int]]
 ) -> Iterator[Change]:
     """A free profile for each chain from a run on, of so many runs or more, with few spans and with more.
 
-    As they are given the chain and the place of the spans are noted.
+    As they are given the run that stands for the chain and the place of the spans are noted.
     """
     start, fewest = sought
     for chain in _chains(model, start):
@@ -66,8 +66,9 @@ def _first_changes(
             tangents = model.joins[chain.start + 1 : chain.stop].count("tangent")
             entry = free_gain(len(chain), tangents, len(points), together)
         for place, spans in enumerate(SPANS if len(chain) > 1 else [*SPANS][:1]):
-            seen.append((chain, place))
-            yield Change(_with_spline(points, model, chain, spans), _one(chain), entry, free=True)
+            seen.append((chain.start, place))
+            one = range(chain.start, chain.start + 1)
+            yield Change(_with_spline(points, model, chain, spans), one, entry, free=True)
 
 
 def _chains(model: ExactModel, start: int) -> Iterator[range]:
@@ -83,11 +84,9 @@ def _chains(model: ExactModel, start: int) -> Iterator[range]:
         start = max(stop, start + 1)
 
 
-def _with_more_spans(
-    points: Floats, model: ExactModel, chain: range, place: int, together: float
-) -> ExactModel:
-    """The model with more spans in the free profile that stands for a chain, as long as that pays."""
-    one = _one(chain)
+def _with_more_spans(points: Floats, model: ExactModel, j: int, place: int, together: float) -> ExactModel:
+    """The model with more spans in the free profile of a run, as long as that pays."""
+    one = range(j, j + 1)
     for spans, each in [*SPANS.items()][place + 1 :]:
         change = _with_spline(points, model, one, spans)
         more = change.parameters - model.parameters
@@ -97,11 +96,6 @@ def _with_more_spans(
             break
         model = better
     return model
-
-
-def _one(chain: range) -> range:
-    """The run that stands for a chain."""
-    return range(chain.start, chain.start + 1)
 
 
 def _with_spline(points: Floats, model: ExactModel, chain: range, spans: int) -> ExactModel:

@@ -1,4 +1,4 @@
-"""Surgery: models with a run taken out, put in, or changed, all else as it was but ties: tori stay whole."""
+"""Surgery: models with a run taken out, put in, or changed; of ties those of tori and round ends stay."""
 
 from __future__ import annotations
 

@@ -8,9 +8,9 @@ from sketchloft.cloud import Floats
 from sketchloft.exact.changes.round_ends import capped
 from sketchloft.exact.changes.worth import worth
 from sketchloft.exact.fit.climb import climb, fit_density
-from sketchloft.exact.model.density import Density
-from sketchloft.exact.model.exact_model import ExactModel, model_of
+from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.surgery import with_split
+from sketchloft.exact.search.box_along import box_along, box_sizes, evenly_filled
 from sketchloft.outline.placed_polygons import RoundedRectangle
 from sketchloft.stack import Run, Stack
 from sketchloft.wall.filleted import Filleted
@@ -59,18 +59,11 @@ def _capsule(model: ExactModel, count: int) -> tuple[ExactModel, Floats] | None:
     if len(model.stack.walls) > 1 or not isinstance(wall, Filleted) or wall.ends != "both":
         return None
     outline = wall.outline
-    sizes = np.array([outline.width, outline.height, high - low])
-    long = int(sizes.argmax())
-    across = np.delete(sizes, long)
-    if not isinstance(outline, RoundedRectangle) or across.max() > (2 + FLAT) * wall.radius:
+    sizes = box_sizes(outline, low, high)
+    seen = box_along(outline, low, high, int(sizes.argmax()))
+    if not isinstance(outline, RoundedRectangle) or max(seen.width, seen.height) > (2 + FLAT) * wall.radius:
         return None
-    cos, sin = np.cos(outline.angle), np.sin(outline.angle)
-    turn = np.roll([[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]], 2 - long, axis=0).T
-    x, y, z = (np.array([*outline.centre, (low + high) / 2]) @ turn).tolist()
-    ends = z - sizes[long] / 2, z + sizes[long] / 2
-    heights, walls = capped(np.array([x, y]), float(across.mean()) / 2, ends, (-1, 1))
-    density = np.zeros(len(model.density.coefficients))
-    density[0] = np.log(count / float(sizes.prod()))
-    middle = Stack(np.array(ends), (Run((walls[1],)),))
-    plain = model_of(middle, model.sigma, Density(density), model.stray, model.space)
-    return with_split(plain, 0, heights, walls), turn
+    heights, walls = capped(seen.centre, (seen.width + seen.height) / 4, seen.ends, (-1, 1))
+    middle = Stack(np.array(seen.ends), (Run((walls[1],)),))
+    plain = evenly_filled(middle, model, count / float(sizes.prod()))
+    return with_split(plain, 0, heights, walls), seen.turn

@@ -43,14 +43,14 @@ def resectioned(
         Cosine of the angle between the direction then and now.
     workers : Workers, optional
     """
-    together, again, parts = start.together, [], []
+    together, again = start.together, []
     for j in range(len(model.stack.runs)):
         if _moved(model, j, start.cuts, upright, together) and not _settled(points, model, j, together):
             inner, ends = _between(points, model, j)
             if len(inner) >= FEWEST:
-                again.append(j)
-                parts.append((inner, ends, model.sigma, together, model.density))
-    for j, run in zip(again, [segment_run(*part, workers=workers) for part in parts], strict=True):
+                run = segment_run(inner, ends, model.sigma, together, model.density, workers=workers)
+                again.append((j, run))
+    for j, run in again:
         if run is not None and _kinds(run) != _kinds(model.stack.runs[j]):
             handicap = rarer(run.walls, model.stack.runs[j].walls)
             change = Change(with_run(model, j, run), range(j, j + 1), handicap, free=True)

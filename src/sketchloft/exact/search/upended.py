@@ -13,9 +13,9 @@ from sketchloft.exact.changes.filleted_walls import fillets
 from sketchloft.exact.changes.worth import worth
 from sketchloft.exact.fit.climb import fit_density
 from sketchloft.exact.fit.likelihood import value_of
-from sketchloft.exact.model.density import Density
-from sketchloft.exact.model.exact_model import ExactModel, model_of
+from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.surgery import with_run
+from sketchloft.exact.search.box_along import box_along, box_sizes, evenly_filled
 from sketchloft.outline.candidates import rectangle_of
 from sketchloft.outline.placed_polygons import Rectangle, RoundedRectangle
 from sketchloft.stack import Run, Stack, Wall
@@ -96,22 +96,13 @@ def _stood_otherwise(points: Floats, model: ExactModel) -> list[tuple[ExactModel
     box = outline if isinstance(outline, Rectangle) else rectangle_of(outline.boundary(AROUND).points)
     if outline.area < FILLED * box.area:
         return []
-    cos, sin = np.cos(box.angle), np.sin(box.angle)
-    along, across, up = np.array([cos, sin, 0.0]), np.array([-sin, cos, 0.0]), np.array([0.0, 0.0, 1.0])
-    middle = np.array([*box.centre, (low + high) / 2])
-    sizes = np.array([box.width, box.height, high - low])
+    density = len(points) / float(box_sizes(box, low, high).prod())
     found = []
-    for axes, order in (((across, up, along), (1, 2, 0)), ((up, along, across), (2, 0, 1))):
-        rotation = np.column_stack(axes)
-        x, y, z = (middle @ rotation).tolist()
-        width, height, length = sizes[list(order)].tolist()
-        sharp = replace(wall, outline=Rectangle(np.array([x, y]), width, height, 0.0))
-        stack = Stack(np.array([z - length / 2, z + length / 2]), (Run((sharp,)),))
-        count = len(points) / float(sizes.prod())
-        density = np.zeros(len(model.density.coefficients))
-        density[0] = np.log(count)
-        stood = model_of(stack, model.sigma, Density(density), model.stray, model.space)
-        found.append((fit_density(points @ rotation, stood), rotation))
+    for edge in (0, 1):
+        seen = box_along(box, low, high, edge)
+        sharp = replace(wall, outline=Rectangle(seen.centre, seen.width, seen.height, 0.0))
+        stood = evenly_filled(Stack(np.array(seen.ends), (Run((sharp,)),)), model, density)
+        found.append((fit_density(points @ seen.turn, stood), seen.turn))
     return found
 
 

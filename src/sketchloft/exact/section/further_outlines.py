@@ -76,8 +76,10 @@ def attempt_splines(attempt: Attempt, tried: Tried, ring: Floats) -> None:
     """Try splines of more poles; where one crosses itself in bays of the contour, from the best so far."""
     values = attempt(*(spline_of(ring, poles) for poles in POLES))
     crossed = [poles for poles, value in zip(POLES, values, strict=True) if not np.isfinite(value)]
-    best = likeliest([found for found in tried if isinstance(found[1], SplineLoop)]).boundary(AROUND).points
-    attempt(*(fitted_loop(best, poles) for poles in crossed))
+    if crossed:
+        splines = [found for found in tried if isinstance(found[1], SplineLoop)]
+        best = likeliest(splines).boundary(AROUND).points
+        attempt(*(fitted_loop(best, poles) for poles in crossed))
 
 
 def nearly_free(tried: Tried) -> bool:

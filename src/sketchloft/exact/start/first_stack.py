@@ -36,19 +36,16 @@ def first_stack(
     Segments too thin or too empty for a section of their own are left to their neighbours. None where
     no segment has a section. A rough one knows few kinds of sections.
     """
-    spans, parts = [], []
-    for low, high in itertools.pairwise(cuts.tolist()):
-        margin = min(blur, (high - low) / 5)
-        inner = points[(points[:, 2] > low + margin) & (points[:, 2] < high - margin)]
-        if high - low >= blur and len(inner) >= FEWEST:
-            spans.append((low, high))
-            parts.append((inner, (low + margin, high - margin), sigma, together, density))
-    found = [segment_run(*part, rough=rough, workers=workers) for part in parts]
     runs: list[Run] = []
     breaks: list[float] = []
     last = float(cuts[0])
-    for k, (low, high) in enumerate(spans):
-        run = found[k]
+    for low, high in itertools.pairwise(cuts.tolist()):
+        margin = min(blur, (high - low) / 5)
+        inner = points[(points[:, 2] > low + margin) & (points[:, 2] < high - margin)]
+        if high - low < blur or len(inner) < FEWEST:
+            continue
+        ends = low + margin, high - margin
+        run = segment_run(inner, ends, sigma, together, density, rough=rough, workers=workers)
         if run is not None:
             runs.append(run)
             breaks.append((low + last) / 2)

@@ -14,7 +14,7 @@ from sketchloft.exact.changes.free_walls import lofted, ruled
 from sketchloft.exact.changes.merges import merges
 from sketchloft.exact.changes.rings import rings
 from sketchloft.exact.changes.round_ends import round_ends
-from sketchloft.exact.changes.trial import ENOUGH, SETTLED, Change, tried
+from sketchloft.exact.changes.trial import ENOUGH, SETTLED, Change, Key, tried
 from sketchloft.exact.changes.worth import worth
 from sketchloft.exact.fit.climb import climb
 from sketchloft.exact.fit.likelihood import rising
@@ -32,7 +32,6 @@ RETURNS = 2
 
 Form = tuple[tuple[Join, ...], tuple[tuple[tuple[str, int], ...], ...]]
 Changes = Callable[[ExactModel], Iterator[Change]]
-Key = tuple[object, ...]
 
 
 def improved(
@@ -61,7 +60,7 @@ def improved(
     found = _changed(points, model, together, lofts=lofts, workers=workers)
     if len(found.stack.runs) == 1:
         return found
-    smooth = splined(points, model, together, CHAIN, workers)
+    smooth = splined(points, model, together, CHAIN, workers=workers)
     if smooth is model:
         return found
     other = _changed(points, smooth, together, lofts=lofts, workers=workers)
@@ -99,7 +98,7 @@ def _changed(
         model = through(model, merges, again=True)
         for changes in (fillings, rings, closings, round_ends):
             model = through(model, changes)
-        model = splined(points, model, together, workers=workers)
+        model = splined(points, model, together, failed=failed, workers=workers)
         model = through(model, lambda m: splits(points, m, together))
         model = through(model, swaps)
         if model is settled:

@@ -9,7 +9,7 @@ import numpy as np
 from sketchloft.cloud import Floats
 from sketchloft.exact.changes.misfit import HOPE, misfit
 from sketchloft.exact.changes.profile_start import profile_start
-from sketchloft.exact.changes.trial import FREE_GAIN, Change, free_gain, tried
+from sketchloft.exact.changes.trial import FREE_GAIN, Change, Key, free_gain, tried
 from sketchloft.exact.fit.clear import clear
 from sketchloft.exact.fit.schwarz import price
 from sketchloft.exact.model.exact_model import ExactModel
@@ -31,44 +31,75 @@ little too free (Akaike's criterion); where there are many, strokes lead some of
 
 
 def splined(
-    points: Floats, model: ExactModel, together: float, fewest: int = 1, workers: Workers = ALONE
+    points: Floats,
+    model: ExactModel,
+    together: float,
+    fewest: int = 1,
+    *,
+    failed: set[Key] | None = None,
+    workers: Workers = ALONE,
 ) -> ExactModel:
     """One free profile for a chain of so many revolved runs or more, with as many spans as pay.
+
+    Parameters
+    ----------
+    points : (n, 3) float array
+    model : ExactModel
+    together : float
+        How many of the points go together.
+    fewest : int
+    failed : set of tuple, optional
+        Keys of changes that need no second look; those that fail now are put in.
+    workers : Workers, optional
 
     References
     ----------
     H. Akaike, A new look at the statistical model identification, IEEE Trans. Autom. Control 19 (1974).
     """
-    start = 0
+    start, failed = 0, set() if failed is None else failed
     while True:
-        seen: list[tuple[int, int]] = []
-        changes = _first_changes(points, model, (start, fewest), together, seen)
+        seen: list[tuple[int, int, Key]] = []
+        changes = _first_changes(points, model, (start, fewest), together, (seen, failed))
         found = workers.first(tried, ((points, model, change, together) for change in changes))
+        failed.update(key for *_, key in seen[: None if found is None else found[0]])
         if found is None:
             return model
-        j, place = seen[found[0]]
+        j, place, _ = seen[found[0]]
         model, start = _with_more_spans(points, found[1], j, place, together), j + 1
 
 
 def _first_changes(
-    points: Floats, model: ExactModel, sought: tuple[int, int], together: float, seen: list[tuple[int, int]]
+    points: Floats,
+    model: ExactModel,
+    sought: tuple[int, int],
+    together: float,
+    notes: tuple[list[tuple[int, int, Key]], set[Key]],
 ) -> Iterator[Change]:
     """A free profile for each chain from a run on, of so many runs or more, with few spans and with more.
 
-    As they are given the run that stands for the chain and the place of the spans are noted.
+    As they are given the run that stands for the chain, the place of the spans and the key are noted. Those
+    that failed are left out, and those for a chain that is right as it is are put among them.
     """
-    start, fewest = sought
+    (start, fewest), (seen, failed) = sought, notes
     for chain in _chains(model, start):
-        if len(chain) < max(fewest, 1) or _right(points, model, chain, together):
+        if len(chain) < max(fewest, 1):
             continue
         entry = 0.0
         if not _has_spline(model, chain):
             tangents = model.joins[chain.start + 1 : chain.stop].count("tangent")
             entry = free_gain(len(chain), tangents, len(points), together)
-        for place, spans in enumerate(SPANS if len(chain) > 1 else [*SPANS][:1]):
-            seen.append((chain.start, place))
-            one = range(chain.start, chain.start + 1)
-            yield Change(_with_spline(points, model, chain, spans), one, entry, free=True)
+        one = range(chain.start, chain.start + 1)
+        changes = (
+            Change(_with_spline(points, model, chain, spans), one, entry, free=True)
+            for spans in (SPANS if len(chain) > 1 else [*SPANS][:1])
+        )
+        fresh = [(place, change) for place, change in enumerate(changes) if change.key not in failed]
+        if fresh and _right(points, model, chain, together):
+            failed.update(change.key for _, change in fresh)
+            continue
+        for place, change in fresh:
+            seen.append((chain.start, place, change.key))
+            yield change
 
 
 def _chains(model: ExactModel, start: int) -> Iterator[range]:

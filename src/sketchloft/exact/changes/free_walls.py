@@ -13,7 +13,7 @@ from sketchloft.exact.changes.trial import BESIDE, BEYOND, BLURRED, Change, trie
 from sketchloft.exact.changes.worth import PER_RUN
 from sketchloft.exact.fit.clear import clear
 from sketchloft.exact.fit.climb import promise
-from sketchloft.exact.fit.likelihood import beside_walls
+from sketchloft.exact.fit.likelihood import beside_walls, evaluate
 from sketchloft.exact.fit.schwarz import price
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.surgery import with_runs, with_split
@@ -103,7 +103,7 @@ def _by_halves(points: Floats, model: ExactModel, runs: range) -> float:
     halves = with_split(model, runs.start, [(low + high) / 2], [wall, wall])
     both = range(runs.start, runs.stop + 1)
     near = points[beside_walls(points, model, BESIDE * model.sigma)]
-    return promise(near, halves, both) - promise(near, model, runs)
+    return promise(evaluate(near, halves), both) - promise(evaluate(near, model), runs)
 
 
 def _best_loft(points: Floats, model: ExactModel, runs: range, together: float) -> ExactModel | None:

@@ -8,12 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sketchloft.cloud import Floats
-from sketchloft.exact.changes.worth import worth
-from sketchloft.exact.fit.climb import climb, fit_density, promise
-from sketchloft.exact.fit.likelihood import beside_walls
+from sketchloft.exact.changes.worth import worth, worth_of
+from sketchloft.exact.fit.climb import climb, climbed, fit_density, promise
+from sketchloft.exact.fit.likelihood import beside_walls, evaluate, rising
 from sketchloft.exact.fit.schwarz import price
 from sketchloft.exact.model.exact_model import ExactModel
-from sketchloft.exact.model.joins import natural_joins
+from sketchloft.exact.model.joins import joined, natural_joins
 
 __all__ = [
     "BESIDE",
@@ -25,6 +25,7 @@ __all__ = [
     "MOST_NOISE",
     "SETTLED",
     "Change",
+    "Key",
     "fitted",
     "free_gain",
     "tried",
@@ -46,6 +47,8 @@ BEYOND = 2.0
 """How much more than the slopes promise a change may gain: they hold for small movements."""
 BLURRED = 10.0
 """What the noise that suits a free wall may gain beside."""
+JOINS = 10.0
+"""What a change may gain beside by joins that it makes natural."""
 PATIENCE = 400.0
 """`HOPELESS` for a free wall, which starts from contours and has far to go."""
 SHARP = 0.006
@@ -56,6 +59,9 @@ FREE_GAIN = 20.0
 """What a free profile must gain over lines and arcs."""
 CHAIN_GAIN = 6.0
 """The same over three of them or more: a designer draws so many rarely where one curve would do."""
+
+
+Key = tuple[object, ...]
 
 
 @dataclass(frozen=True)
@@ -80,7 +86,7 @@ class Change:
     free: bool = False
 
     @property
-    def key(self) -> tuple[object, ...]:
+    def key(self) -> Key:
         """The same for changes that start from the same numbers."""
         kinds = tuple(wall.kind for wall in self.model.stack.walls)
         return kinds, self.runs, self.model.vector.tobytes(), self.model.stack.breaks.tobytes()
@@ -128,24 +134,26 @@ def tried(points: Floats, model: ExactModel, change: Change, together: float) ->
     near = _deciding(points, model, change)
     if not len(near):
         return None
-    count = len(points)
+    count, enough = len(points), ENOUGH * together
     wide = _with_neighbours(candidate, runs)
-    least = worth(near, model, together, count) + change.handicap
-    value = worth(near, candidate, together, count)
-    if least - value > min(BEYOND * promise(near, candidate, wide) / together, FAR):
+    before, now = evaluate(near, joined(model)), evaluate(near, joined(candidate))
+    least = worth_of(before, together, count) + change.handicap
+    if least - worth_of(now, together, count) > min(BEYOND * promise(now, wide) / together, FAR):
         return None
     for steps in STEPS:
-        candidate, _, _ = climb(near, candidate, steps, runs=wide, enough=ENOUGH * together)
-        if not worth(near, candidate, together, count) > least - HOPELESS:
+        now, _ = climbed(now, steps, runs=wide, enough=enough)
+        gain = worth_of(now, together, count) - least
+        if not gain > -HOPELESS or gain + BEYOND * promise(now, wide) / together < -JOINS:
             return None
-    candidate = natural_joins(candidate)
-    if not worth(near, candidate, together, count) > least:
+    candidate = natural_joins(now.model)
+    if candidate.joins != now.model.joins:
+        now = evaluate(near, candidate)
+    value = worth_of(now, together, count)
+    if not value > least:
         return None
     # What the model would gain by the same steps is not to the credit of the change.
-    before = _before(model, candidate, runs)
-    model, _, _ = climb(near, model, sum(STEPS), runs=before, enough=ENOUGH * together)
-    least = worth(near, model, together, count) + change.handicap
-    return candidate if worth(near, candidate, together, count) > least else None
+    before, _ = climbed(before, sum(STEPS), runs=_before(model, candidate, runs), enough=enough)
+    return now.model if value > worth_of(before, together, count) + change.handicap else None
 
 
 def fitted(
@@ -195,23 +203,23 @@ def tried_free(
     model = fit_density(points, model, 1)
     least = value(model) + change.handicap
     gain = value(candidate) - least
-    if gain + BEYOND * promise(near, candidate, wide) / together < -BLURRED:
+    if gain + BEYOND * promise(evaluate(near, candidate), wide) / together < -BLURRED:
         return None, gain
+    # What the model would gain by the same steps is not to the credit of the change.
+    before = _before(model, candidate, runs)
+    settled, _, _ = climb(near, model, SETTLED, runs=before, noise=True, most=MOST_NOISE, enough=enough)
+    least = max(least, value(fit_density(points, settled, 1)) + change.handicap)
     for k, steps in enumerate((STEPS[0], *STEPS, SETTLED)):
         if k:
             candidate = fit_density(points, candidate, 1)
-        candidate, _, _ = climb(
-            _beside(near, candidate), candidate, steps, runs=wide, noise=k > 0, most=MOST_NOISE, enough=enough
-        )
+        now = evaluate(_beside(near, candidate), joined(candidate))
+        now, _ = climbed(now, steps, runs=wide, noise=k > 0, most=MOST_NOISE, enough=enough)
+        candidate = now.model
         gain = value(candidate) - least
-        if gain < -PATIENCE:
+        if gain < -PATIENCE or (k and gain + BEYOND * promise(now, wide) / together < -BLURRED):
             return None, gain
     candidate = natural_joins(candidate)
     gain = value(candidate) - least
-    if gain > 0:
-        before = _before(model, candidate, runs)
-        model, _, _ = climb(near, model, SETTLED, runs=before, noise=True, most=MOST_NOISE, enough=enough)
-        gain = value(candidate) - value(fit_density(points, model, 1)) - change.handicap
     return replace(candidate, sigma=sigma) if gain > 0 else None, gain
 
 
@@ -230,8 +238,9 @@ def _beside(points: Floats, model: ExactModel) -> Floats:
 
 
 def _deciding(points: Floats, model: ExactModel, change: Change) -> Floats:
-    """Points at the heights of a change beside the walls before it or after it."""
-    return _beside_either(points[_at_heights(points, change.model, change.runs)], model, change.model)
+    """Points at the heights of a change beside the walls before it or after it, rising."""
+    here = rising(points[_at_heights(points, change.model, change.runs)])
+    return _beside_either(here, model, change.model)
 
 
 def _beside_either(points: Floats, model: ExactModel, candidate: ExactModel) -> Floats:

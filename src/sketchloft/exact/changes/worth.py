@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.exact.fit.likelihood import value_of
+from sketchloft.exact.fit.likelihood import Evaluation, evaluate
 from sketchloft.exact.fit.schwarz import price
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.soundness import detached, slits
 from sketchloft.stack import Wall
 from sketchloft.wall.swept import Swept
 
-__all__ = ["PER_RUN", "worth"]
+__all__ = ["PER_RUN", "worth", "worth_of"]
 
 SHORT = 8.0
 """Runs shorter than so many noise deviations are taken for noise unless they gain a lot."""
@@ -32,12 +32,18 @@ SHORTNESS = 12.0
 
 def worth(points: Floats, model: ExactModel, together: float, count: int) -> float:
     """Log likelihood of some of a cloud's points (n, 3), less the price of the model for all of them."""
+    return worth_of(evaluate(points, model), together, count)
+
+
+def worth_of(seen: Evaluation, together: float, count: int) -> float:
+    """What a model is worth that was evaluated, as `worth`."""
+    model = seen.model
     lengths = np.diff(model.stack.breaks)
     short = np.maximum(1 - lengths / (SHORT * model.sigma), 0.0)
     odd = SHORTNESS * float(short.sum()) + DETACHED * detached(model) + SLIT * slits(model)
     odd += LEANING * sum(map(_leanings, model.stack.walls))
     parameters = model.parameters + PER_RUN * len(lengths) + (0 if _is_ball(model) else DIRECTION)
-    return value_of(points, model) / together - (price(parameters, count, together) + odd)
+    return seen.value / together - (price(parameters, count, together) + odd)
 
 
 def _is_ball(model: ExactModel) -> bool:

@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import TypedDict, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sketchloft.cloud import Floats
 from sketchloft.exact.fit.expected import mass_nodes, wall_nodes
-from sketchloft.exact.fit.likelihood import Derivatives, evaluate, rising, share_of
+from sketchloft.exact.fit.likelihood import Derivatives, Evaluation, evaluate, share_of
 from sketchloft.exact.fit.tilt import tilted
 from sketchloft.exact.model.density import Density, regressed
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.joins import joined
 from sketchloft.exact.model.soundness import sound
 
-__all__ = ["climb", "fit_density", "promise"]
+__all__ = ["Motion", "climb", "climbed", "fit_density", "promise"]
 
 Bools = NDArray[np.bool_]
 
@@ -27,6 +28,10 @@ STRAY_MOST = 0.06
 MOST_CHANGE = 0.5
 """Largest change of the logarithm of the density in one round, lest it run away with a shrinking model."""
 TINY = 1e-12
+LEAST = 1e-5
+"""Smallest sigma, where none is given."""
+ENOUGH = 0.05
+"""Gain of the last step, where none is given."""
 LAST = 4
 """Parameters that come last: tilt, log sigma and log stray."""
 LARGEST = 0.5, 1.0
@@ -45,19 +50,33 @@ STRIDE = 3.0
 """How far a single parameter may move a wall in one step, in noise deviations."""
 
 
+class Motion(TypedDict, total=False):
+    """What moves, and how far, in a climb.
+
+    Parameters
+    ----------
+    tilt, noise, strays : bool
+        Whether the direction, sigma and the density of strays move, too; the last only where all strays
+        are among the points.
+    least, most : float
+        Smallest and largest sigma.
+    enough : float
+        Gain of a step, in log likelihood, below which it is the last.
+    runs : range
+        The runs whose walls, and the breaks between them, move; the ends of the stack move with them.
+    """
+
+    tilt: bool
+    noise: bool
+    strays: bool
+    least: float
+    most: float
+    enough: float
+    runs: range
+
+
 def climb(
-    points: Floats,
-    model: ExactModel,
-    steps: int,
-    *,
-    tilt: bool = False,
-    noise: bool = False,
-    strays: bool = False,
-    caps: bool = True,
-    least: float = 1e-5,
-    most: float = np.inf,
-    enough: float = 0.05,
-    runs: range | None = None,
+    points: Floats, model: ExactModel, steps: int, *, caps: bool = True, **motion: Unpack[Motion]
 ) -> tuple[ExactModel, Floats, Floats]:
     """Climb the likelihood from a model by damped Newton steps with the scores' outer products.
 
@@ -67,17 +86,9 @@ def climb(
     model : ExactModel
     steps : int
         At most this many.
-    tilt, noise, strays : bool
-        Whether the direction, sigma and the density of strays move, too; the last only where all strays
-        are among the points.
     caps : bool
         Whether the first and last break are walls; without, they are not moved.
-    runs : range, optional
-        The runs whose walls, and the breaks between them, move; the ends of the stack move with them.
-    least, most : float
-        Smallest and largest sigma.
-    enough : float
-        Gain of a step, in log likelihood, below which it is the last.
+    **motion : Motion
 
     Returns
     -------
@@ -87,52 +98,60 @@ def climb(
     (3, 3) float array
         The rotation: new points = old points @ rotation.
     """
+    end, turn = climbed(evaluate(points, joined(model), caps=caps), steps, **motion)
+    return end.model, points @ turn if motion.get("tilt") else points, turn
+
+
+def climbed(now: Evaluation, steps: int, **motion: Unpack[Motion]) -> tuple[Evaluation, Floats]:
+    """Climb on from where a model was evaluated, as `climb`; the end, and the rotation of the points.
+
+    Parameters
+    ----------
+    now : Evaluation
+        Of a model whose breaks are joined.
+    steps : int
+    **motion : Motion
+    """
     damping, turn = DAMPING, np.eye(3)
-    model = joined(model)
-    seen = rising(points)
-    now = evaluate(seen, model, caps=caps)
-    if not np.isfinite(now.value):
-        return model, points, turn
-    for _ in range(steps):
-        free = _free(model, tilt=tilt, noise=noise, strays=strays)
-        if runs is not None:
-            free &= _of_runs(model, runs)
-        if not caps:
-            free[[model.size, -LAST - 1]] = False
+    for _ in range(steps if np.isfinite(now.value) else 0):
+        free = _free(now.model, motion)
+        if not now.caps:
+            free[[now.model.size, -LAST - 1]] = False
         moved = None
         for _ in range(6):
-            step = _step(now.derivatives, free, damping, model.sigma)
-            candidate, rotation = _moved(model, step, (least, most))
-            turned = seen @ rotation if tilt else seen
-            then = evaluate(turned, candidate, caps=caps)
+            step = _step(now.derivatives, free, damping, now.model.sigma)
+            candidate, rotation = _moved(
+                now.model, step, (motion.get("least", LEAST), motion.get("most", np.inf))
+            )
+            turned = now.points @ rotation if motion.get("tilt") else now.points
+            then = evaluate(turned, candidate, caps=now.caps)
             gain = then.value - now.value
             damping = _damping(damping, float(now.derivatives.score @ step), gain)
             if gain > 0:
-                moved = candidate, turned, rotation, then
+                moved = then
                 break
         if moved is None:
             break
-        model, seen, rotation, now = moved
-        turn = turn @ rotation
-        if gain < enough and damping < EASED:  # much damping gains little, however much there is to gain
+        now, turn = moved, turn @ rotation
+        # Much damping gains little, however much there is to gain.
+        if gain < motion.get("enough", ENOUGH) and damping < EASED:
             break
-    return model, points @ turn if tilt else points, turn
+    return now, turn
 
 
-def promise(points: Floats, model: ExactModel, runs: range) -> float:
+def promise(now: Evaluation, runs: range) -> float:
     """Log likelihood that the walls of some runs would gain by moving, as its slopes say (score test).
 
     Parameters
     ----------
-    points : (n, 3) float array
-    model : ExactModel
+    now : Evaluation
     runs : range
         As for `climb`.
     """
-    now = evaluate(points, model)
     if not np.isfinite(now.value):
         return 0.0
-    free = _free(model, tilt=False, noise=False, strays=False) & _of_runs(model, runs)
+    model = now.model
+    free = _free(model, {"runs": runs})
     index = np.flatnonzero(free)
     information = now.derivatives.information[np.ix_(index, index)]
     score, reach = now.derivatives.score[index], now.derivatives.reach[index]
@@ -142,9 +161,12 @@ def promise(points: Floats, model: ExactModel, runs: range) -> float:
     return float(score @ step) * (share - share**2 / 2)
 
 
-def _free(model: ExactModel, *, tilt: bool, noise: bool, strays: bool) -> Bools:
+def _free(model: ExactModel, motion: Motion) -> Bools:
+    """Which parameters move."""
     steps = [join == "step" for join in model.joins]
-    return np.array([*[True] * model.size, *steps, tilt, tilt, noise, strays])
+    tilt, noise, strays = (motion.get(name, False) for name in ("tilt", "noise", "strays"))
+    free = np.array([*[True] * model.size, *steps, tilt, tilt, noise, strays])
+    return free & _of_runs(model, motion["runs"]) if "runs" in motion else free
 
 
 def _of_runs(model: ExactModel, runs: range) -> Bools:

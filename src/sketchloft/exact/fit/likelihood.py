@@ -55,12 +55,20 @@ class Evaluation:
 
     Parameters
     ----------
+    points : (n, 3) float array
+        Rising.
+    model : ExactModel
+    caps : bool
+        Whether the first and last break are walls.
     value : float
         Minus infinity where the model is not sound: then there are no derivatives.
     derive : callable
         Finds the derivatives, which a step that leads downwards has no use for.
     """
 
+    points: Floats
+    model: ExactModel
+    caps: bool
     value: float
     derive: Callable[[], Derivatives]
 
@@ -85,9 +93,9 @@ def evaluate(points: Floats, model: ExactModel, *, caps: bool = True) -> Evaluat
     caps : bool
         Whether the first and last break are walls. Without, all points must lie between them.
     """
-    if not sound(model):
-        return Evaluation(-np.inf, _none)
     points = rising(points)
+    if not sound(model):
+        return Evaluation(points, model, caps, -np.inf, _none)
     slabs = slabs_of(points, model, model.sigma, caps=caps)
     rho = model.density.at(points)
     total = rho * share_within(len(points), slabs) + model.stray
@@ -103,7 +111,7 @@ def evaluate(points: Floats, model: ExactModel, *, caps: bool = True) -> Evaluat
         return Derivatives(score, ratio.T @ ratio, reach)
 
     value = float(np.log(total).sum()) - expected_points(model, nodes) - model.stray * model.space
-    return Evaluation(value, derive)
+    return Evaluation(points, model, caps, value, derive)
 
 
 def _none() -> Derivatives:

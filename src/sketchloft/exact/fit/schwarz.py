@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from sketchloft.cloud import Floats
-from sketchloft.exact.fit.likelihood import value_of
-from sketchloft.exact.model.exact_model import ExactModel
+from sketchloft.exact.fit.likelihood import Evaluation
 
 __all__ = ["evidence", "price"]
 
@@ -29,6 +27,6 @@ def price(parameters: int, count: int, together: float) -> float:
     return 0.5 * parameters * float(np.log(max(count / together, 3.0)))
 
 
-def evidence(points: Floats, model: ExactModel, together: float) -> float:
-    """Log likelihood of the points (n, 3) of a stretch without caps, less the price of the walls."""
-    return value_of(points, model, caps=False) / together - price(model.size, len(points), together)
+def evidence(seen: Evaluation, together: float) -> float:
+    """Log likelihood of the points of a stretch, less the price of the walls."""
+    return seen.value / together - price(seen.model.size, len(seen.points), together)

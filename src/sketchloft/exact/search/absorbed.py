@@ -60,9 +60,10 @@ def _holds_few(points: Floats, model: ExactModel) -> bool:
 def _simpler(points: Floats, strays: Strays, together: float, workers: Workers) -> Strays | None:
     """A run less, with a stroke less, the best of all that pay."""
     inner = points[strays.kept]
-    parts = [(inner, strays.model, change, together) for change in merges(strays.model)]
-    found = [(value, less) for value, less in workers.each(_less, parts) if less is not None]
+    changes = {change.key: change for change in merges(strays.model)}
     most = worth(inner, strays.model, together, len(points))
+    parts = [(inner, strays.model, change, together, most) for change in changes.values()]
+    found = [(value, less) for value, less in workers.each(_less, parts) if less is not None]
     value, best = max(found, key=lambda one: one[0], default=(most, None))
     if best is None or value <= most:
         return None
@@ -71,14 +72,15 @@ def _simpler(points: Floats, strays: Strays, together: float, workers: Workers) 
     return replace(best, kept=kept, worth=strays.worth + best.worth)
 
 
-def _less(points: Floats, model: ExactModel, change: Change, together: float) -> tuple[float, Strays | None]:
+def _less(
+    points: Floats, model: ExactModel, change: Change, together: float, most: float
+) -> tuple[float, Strays | None]:
     """What a model with a run and a stroke less is worth; none where there is no hope or no such stroke."""
-    least = worth(points, model, together, len(points))
     candidate = change.model
     for steps, worse in ((0, FAR), (FIRST, PATIENCE), (SETTLED, HOPELESS)):
         if steps:
             candidate = fitted(points, model, replace(change, model=candidate), together, steps)
-        if worth(points, candidate, together, len(points)) < least - worse:
+        if worth(points, candidate, together, len(points)) < most - worse:
             return -np.inf, None
     found = stray_strokes(points, candidate, together)
     if found.kept.all():

@@ -8,7 +8,8 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.dispersion import thinned
-from sketchloft.exact.fit.climb import climb, fit_density
+from sketchloft.exact.fit.climb import climb, climbed, fit_density
+from sketchloft.exact.fit.likelihood import Evaluation, evaluate
 from sketchloft.exact.fit.schwarz import evidence
 from sketchloft.exact.model.density import Density
 from sketchloft.exact.model.exact_model import ExactModel, model_of
@@ -130,12 +131,12 @@ def fitted_outline(loop: Loop, outline: Outline, least: float) -> FittedOutline:
     """
     points = np.column_stack([loop.near, np.zeros(len(loop.near))])
     start = _model(loop, outline)
-    model, settled = _settled(points, start, loop.together)
-    value = settled
+    now = _settled(points, start, loop.together)
+    value = settled = evidence(now, loop.together)
     if settled > least:
-        model, value = _sharpened(points, model, start, loop.together)
+        now, value = _sharpened(now, start, loop.together)
         value -= rarity(outline)
-    wall = model.stack.runs[0].walls[0]
+    wall = now.model.stack.runs[0].walls[0]
     if isinstance(wall, Swept):
         outline = wall.outline
     return FittedOutline(outline, settled, value if _holds(loop, outline) else -np.inf)
@@ -156,19 +157,16 @@ def _model(loop: Loop, outline: Outline) -> ExactModel:
     return replace(model_of(stack, 0.5 * loop.blur, density, 1.0 / space, space), core=loop.core)
 
 
-def _settled(points: Floats, model: ExactModel, together: float) -> tuple[ExactModel, float]:
-    """Fit at the noise that all outlines begin with, and the evidence."""
+def _settled(points: Floats, model: ExactModel, together: float) -> Evaluation:
+    """Fit at the noise that all outlines begin with."""
     model, _, _ = climb(points, model, 5, caps=False, enough=ENOUGH * together)
-    model = fit_density(points, model, 1, caps=False)
-    return model, evidence(points, model, together)
+    return evaluate(points, fit_density(points, model, 1, caps=False), caps=False)
 
 
-def _sharpened(
-    points: Floats, model: ExactModel, start: ExactModel, together: float
-) -> tuple[ExactModel, float]:
+def _sharpened(now: Evaluation, start: ExactModel, together: float) -> tuple[Evaluation, float]:
     """Fit the noise, too, and the evidence; none for an outline that gave up most of the points."""
-    enough = ENOUGH * together
-    model, _, _ = climb(points, model, 8, noise=True, caps=False, most=model.sigma, enough=enough)
-    model = fit_density(points, model, 1, caps=False)
+    end, _ = climbed(now, 8, noise=True, most=now.model.sigma, enough=ENOUGH * together)
+    model = fit_density(now.points, end.model, 1, caps=False)
+    now = evaluate(now.points, model, caps=False)
     crowded = model.density.coefficients[0] - start.density.coefficients[0] > np.log(CROWDED)
-    return model, -np.inf if crowded else evidence(points, model, together)
+    return now, -np.inf if crowded else evidence(now, together)

@@ -9,6 +9,7 @@ import numpy as np
 from sketchloft.cloud import Floats
 from sketchloft.dispersion import clump, thinned
 from sketchloft.exact.fit.climb import climb, fit_density
+from sketchloft.exact.fit.likelihood import evaluate
 from sketchloft.exact.fit.schwarz import evidence
 from sketchloft.exact.model.density import Density
 from sketchloft.exact.model.exact_model import ExactModel, model_of
@@ -78,7 +79,7 @@ def segment_run(
         walls = model.stack.runs[0].walls
         if not all(covers(wall, ends[0] - REACH, ends[1] + REACH) for wall in walls):
             continue
-        value = evidence(points, model, together)
+        value = evidence(evaluate(points, model, caps=False), together)
         if best is None or value > best[0]:
             best = value, model
     return None if best is None else best[1].stack.runs[0]

@@ -139,12 +139,13 @@ class Workers:
         list
             Results, in the order of the arguments.
         """
-        jobs = []
-        for part in parts:
-            job = self.begin(function, *part, **same)
+        jobs = [Job(partial(function, *part, **same)) for part in parts]
+        for job in jobs[:-1]:
+            self._give(job)
             if not job.elsewhere:
                 job.do()
-            jobs.append(job)
+        for job in jobs[-1:]:  # there is nothing else to do here meanwhile
+            job.do()
         return [job.result() for job in jobs]
 
     def first(

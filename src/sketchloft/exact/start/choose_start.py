@@ -58,10 +58,11 @@ def other_starts(
     -------
     tuple of Start
     """
-    candidates, blurred = first.candidates, first.together > 1
-    others = _blurred_contenders if blurred else _contenders
+    candidates = first.candidates
+    others = _blurred_contenders if first.together > 1 else _contenders
     starts = [first, *others(points, first, params, workers)]
     best = max(starts, key=_value)
+    finer = (best, workers.begin(_finer, points, best, params)) if _wants_finer(best) else None
     if best.settling[2, 2] < np.cos(TURNED) and not best.plain:
         starts += along(points, best.direction, best.candidates, params, workers=workers)
         best = max(starts, key=_value)
@@ -70,9 +71,21 @@ def other_starts(
     if through is not None and all(abs(float(through @ start.direction)) < BESIDE for start in starts):
         starts += along(points, through, best.candidates, params, workers=workers)
         best = max(starts, key=_value)
-    if blurred and not best.plain and best.merged.sigma >= CLEAR:
-        starts += along(points, best.frame.axes[2], best.candidates, params, fine=True, workers=workers)
+    if finer is not None and finer[0] is best:
+        starts += finer[1].result()
+    elif _wants_finer(best):
+        starts += _finer(points, best, params, workers)
     return tuple(starts[1:])
+
+
+def _wants_finer(best: Start) -> bool:
+    """Whether strokes leave the walls so blurred that breaks may be missing."""
+    return best.together > 1 and not best.plain and best.merged.sigma >= CLEAR
+
+
+def _finer(points: Floats, best: Start, params: SegmentsParams, workers: Workers = ALONE) -> list[Start]:
+    """The first stack along the same direction, its heights cut more finely."""
+    return along(points, best.frame.axes[2], best.candidates, params, fine=True, workers=workers)
 
 
 def _contenders(points: Floats, first: Start, params: SegmentsParams, workers: Workers) -> list[Start]:
@@ -106,12 +119,14 @@ def _blurred_contenders(
         return []
     candidates = first.candidates
     contenders = _unlike(candidates)[: BLURRED_CONTENDERS + 1][1:]
-    parts = [(points, candidates[k].vector, _led_by(candidates, k), params) for k in contenders]
-    rough = list(chain(*workers.each(along, parts, rough=True)))
+    ahead = [(points, candidates[k].vector, _led_by(candidates, k), params) for k in contenders]
+    rough = list(chain(*workers.each(along, ahead, rough=True)))
     least = max(start.value for start in (first, *rough)) - BEHIND
     likely = apart([start for start in rough if start.value > least])
     orders = [start.candidates for start in likely[:FULL] if not _round(start)]
-    full = workers.each(along, [(points, order[0].vector, order, params) for order in orders])
+    parts = [(points, order[0].vector, order, params) for order in orders]
+    helped = workers if len(parts) == 1 else ALONE  # one alone is done here
+    full = workers.each(along, parts, workers=helped)
     return [*filter(_round, likely[:FULL]), *chain(*full)]
 
 

@@ -12,9 +12,9 @@ from sketchloft import Params, PointCloud, reconstruct
 from sketchloft.cloud import Floats
 from sketchloft.direction import Axis, DirectionParams
 from sketchloft.exact.body import ExactBody
+from sketchloft.exact.changes.change import Change
 from sketchloft.exact.changes.evidence import improved
 from sketchloft.exact.changes.misfit import misfit
-from sketchloft.exact.changes.trial import Change
 from sketchloft.exact.model.density import Density
 from sketchloft.exact.model.exact_model import ExactModel, model_of
 from sketchloft.exact.model.soundness import detached, sound

@@ -8,7 +8,11 @@ import numpy as np
 import pytest
 
 from sketchloft.cloud import Floats
-from sketchloft.exact.changes.trial import BEYOND, Change, tried
+from sketchloft.exact.changes import free_profiles
+from sketchloft.exact.changes.change import Change, Key
+from sketchloft.exact.changes.free_profiles import splined
+from sketchloft.exact.changes.free_trial import BEYOND
+from sketchloft.exact.changes.trial import tried
 from sketchloft.exact.changes.worth import worth
 from sketchloft.exact.fit.climb import climb, promise
 from sketchloft.exact.fit.likelihood import evaluate
@@ -64,6 +68,15 @@ def test_a_taper_is_taken_up_where_there_is_one(slope: float, pays: bool) -> Non
     model, _, _ = climb(points, model_with(cylinder()), 20)
     change = Change(with_wall(model, 0, 0, cone()), range(1))
     assert (tried(points, model, change, 1) is not None) == pays
+
+
+def test_a_chain_that_needs_no_free_profile_is_not_looked_at_twice(monkeypatch: pytest.MonkeyPatch) -> None:
+    points, failed = frustum(0.0), set[Key]()
+    model, _, _ = climb(points, model_with(cylinder()), 20)
+    assert splined(points, model, 1, failed=failed) is model
+    assert len(failed) == 1
+    monkeypatch.setattr(free_profiles, "misfit", pytest.fail)
+    assert splined(points, model, 1, failed=failed) is model
 
 
 def test_what_a_model_would_gain_anyhow_is_not_to_the_credit_of_a_change() -> None:

@@ -56,6 +56,14 @@ def test_results_come_in_order_whoever_found_them(team: Workers) -> None:
     assert ALONE.each(_slow_double, [(0.0, 1), (0.0, 2)]) == [2, 4]
 
 
+def test_the_last_piece_is_done_here_where_there_is_nothing_else_to_do(team: Workers) -> None:
+    _until_free(team)
+    first, last = team.each(os.getpid, [(), ()])
+    assert last == os.getpid() != first
+    assert team.each(os.getpid, [()]) == [os.getpid()]
+    assert team.each(os.getpid, []) == []
+
+
 def _large(number: int, least: int, seconds: float = 0.0) -> int | None:
     time.sleep(seconds)
     return 10 * number if number >= least else None

@@ -12,7 +12,8 @@ from sketchloft.cloud import Floats, Unit
 from sketchloft.dispersion import clump, dispersion
 from sketchloft.errors import InputError
 from sketchloft.exact.body import ExactBody
-from sketchloft.exact.fit.climb import climb, fit_density
+from sketchloft.exact.fit.climb import climb
+from sketchloft.exact.fit.fit_density import fit_density
 from sketchloft.exact.fit.inward_gap import without_gap
 from sketchloft.exact.fit.likelihood import beside_walls
 from sketchloft.exact.fit.sharpen import least_noise, sharpened

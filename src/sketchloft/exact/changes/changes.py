@@ -7,9 +7,9 @@ from dataclasses import replace
 from itertools import pairwise
 
 from sketchloft.cloud import Floats
+from sketchloft.exact.changes.change import FREE_GAIN, Change, free_gain
 from sketchloft.exact.changes.section_radii import SectionRadii, piece_costs, section_radii
 from sketchloft.exact.changes.simpler_walls import profiles_like, walls_like
-from sketchloft.exact.changes.trial import FREE_GAIN, Change, free_gain
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.joins import end_pole, natural_joins, sole_profile
 from sketchloft.exact.model.surgery import with_run, with_split, with_wall

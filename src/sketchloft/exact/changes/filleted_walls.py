@@ -7,7 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.exact.changes.trial import Change, tried_free
+from sketchloft.exact.changes.change import Change
+from sketchloft.exact.changes.free_trial import tried_free
 from sketchloft.exact.fit.likelihood import value_of
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.surgery import with_runs

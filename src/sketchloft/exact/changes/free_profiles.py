@@ -7,9 +7,10 @@ from collections.abc import Iterator
 import numpy as np
 
 from sketchloft.cloud import Floats
+from sketchloft.exact.changes.change import FREE_GAIN, Change, Key, free_gain
 from sketchloft.exact.changes.misfit import HOPE, misfit
 from sketchloft.exact.changes.profile_start import profile_start
-from sketchloft.exact.changes.trial import FREE_GAIN, Change, Key, free_gain, tried
+from sketchloft.exact.changes.trial import tried
 from sketchloft.exact.fit.clear import clear
 from sketchloft.exact.fit.schwarz import price
 from sketchloft.exact.model.exact_model import ExactModel

@@ -5,11 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from sketchloft.cloud import Floats
+from sketchloft.exact.changes.change import Change
+from sketchloft.exact.changes.deciding import BESIDE
+from sketchloft.exact.changes.free_trial import BEYOND, BLURRED, tried_free
 from sketchloft.exact.changes.loft_start import loft_start
 from sketchloft.exact.changes.misfit import HOPE, misfit
 from sketchloft.exact.changes.ruled_start import ruled_start
 from sketchloft.exact.changes.square_to_round import square_to_round
-from sketchloft.exact.changes.trial import BESIDE, BEYOND, BLURRED, Change, tried_free
 from sketchloft.exact.changes.worth import PER_RUN
 from sketchloft.exact.fit.clear import clear
 from sketchloft.exact.fit.climb import promise

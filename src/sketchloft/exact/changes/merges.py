@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from sketchloft.exact.changes.change import Change
 from sketchloft.exact.changes.simpler_walls import profiles_like
-from sketchloft.exact.changes.trial import Change
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.joins import sole_profile
 from sketchloft.exact.model.surgery import with_runs, without_run

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from sketchloft.exact.changes.trial import Change
+from sketchloft.exact.changes.change import Change
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.soundness import sound
 from sketchloft.exact.model.surgery import with_runs

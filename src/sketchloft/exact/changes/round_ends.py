@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.exact.changes.trial import CHAIN_GAIN, FREE_GAIN, Change
+from sketchloft.exact.changes.change import CHAIN_GAIN, FREE_GAIN, Change
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.joins import sole_profile
 from sketchloft.exact.model.surgery import with_split

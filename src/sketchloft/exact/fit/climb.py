@@ -3,37 +3,25 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TypedDict, Unpack
+from typing import Unpack
 
 import numpy as np
-from numpy.typing import NDArray
 
 from sketchloft.cloud import Floats
-from sketchloft.exact.fit.expected import mass_nodes, wall_nodes
-from sketchloft.exact.fit.likelihood import Derivatives, Evaluation, evaluate, share_of
+from sketchloft.exact.fit.fit_density import FEWEST
+from sketchloft.exact.fit.likelihood import Derivatives, Evaluation, evaluate
+from sketchloft.exact.fit.motion import LAST, Bools, Motion, free_parameters
 from sketchloft.exact.fit.tilt import tilted
-from sketchloft.exact.model.density import Density, regressed
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.joins import joined
-from sketchloft.exact.model.soundness import sound
 
-__all__ = ["Motion", "climb", "climbed", "fit_density", "promise"]
+__all__ = ["climb", "climbed", "promise"]
 
-Bools = NDArray[np.bool_]
-
-FEWEST = 0.5
-"""Strays at least."""
-STRAY_MOST = 0.06
-"""Largest share of strays."""
-MOST_CHANGE = 0.5
-"""Largest change of the logarithm of the density in one round, lest it run away with a shrinking model."""
 TINY = 1e-12
 LEAST = 1e-5
 """Smallest sigma, where none is given."""
 ENOUGH = 0.05
 """Gain of the last step, where none is given."""
-LAST = 4
-"""Parameters that come last: tilt, log sigma and log stray."""
 LARGEST = 0.5, 1.0
 """Largest steps of the last two."""
 DAMPING = 1e-3
@@ -48,31 +36,6 @@ TRUST = 10.0
 """How far a wall may move, in noise deviations, for its slopes to tell what that gains."""
 STRIDE = 3.0
 """How far a single parameter may move a wall in one step, in noise deviations."""
-
-
-class Motion(TypedDict, total=False):
-    """What moves, and how far, in a climb.
-
-    Parameters
-    ----------
-    tilt, noise, strays : bool
-        Whether the direction, sigma and the density of strays move, too; the last only where all strays
-        are among the points.
-    least, most : float
-        Smallest and largest sigma.
-    enough : float
-        Gain of a step, in log likelihood, below which it is the last.
-    runs : range
-        The runs whose walls, and the breaks between them, move; the ends of the stack move with them.
-    """
-
-    tilt: bool
-    noise: bool
-    strays: bool
-    least: float
-    most: float
-    enough: float
-    runs: range
 
 
 def climb(
@@ -114,7 +77,7 @@ def climbed(now: Evaluation, steps: int, **motion: Unpack[Motion]) -> tuple[Eval
     """
     damping, turn = DAMPING, np.eye(3)
     for _ in range(steps if np.isfinite(now.value) else 0):
-        free = _free(now.model, motion)
+        free = free_parameters(now.model, motion)
         if not now.caps:
             free[[now.model.size, -LAST - 1]] = False
         moved = None
@@ -151,7 +114,7 @@ def promise(now: Evaluation, runs: range) -> float:
     if not np.isfinite(now.value):
         return 0.0
     model = now.model
-    free = _free(model, {"runs": runs})
+    free = free_parameters(model, {"runs": runs})
     index = np.flatnonzero(free)
     information = now.derivatives.information[np.ix_(index, index)]
     score, reach = now.derivatives.score[index], now.derivatives.reach[index]
@@ -159,30 +122,6 @@ def promise(now: Evaluation, runs: range) -> float:
     farthest = float(np.abs(step * reach).max(initial=0.0)) / (TRUST * model.sigma)
     share = 1 / max(farthest, 1.0)
     return float(score @ step) * (share - share**2 / 2)
-
-
-def _free(model: ExactModel, motion: Motion) -> Bools:
-    """Which parameters move."""
-    steps = [join == "step" for join in model.joins]
-    tilt, noise, strays = (motion.get(name, False) for name in ("tilt", "noise", "strays"))
-    free = np.array([*[True] * model.size, *steps, tilt, tilt, noise, strays])
-    return free & _of_runs(model, motion["runs"]) if "runs" in motion else free
-
-
-def _of_runs(model: ExactModel, runs: range) -> Bools:
-    """Parameters of some runs' walls that no other run shares, the breaks within, and the last ones."""
-    mine = np.zeros(model.size + len(model.stack.breaks) + LAST, dtype=bool)
-    mine[-LAST:] = True
-    others = np.zeros(model.size, dtype=bool)
-    for j, row in enumerate(model.slots):
-        for slot in row:
-            (mine if j in runs else others)[slot] = True
-    mine[: model.size] &= ~others
-    last = len(model.slots)
-    low = runs.start if runs.start == 0 else runs.start + 1
-    high = runs.stop if runs.stop == last else runs.stop - 1
-    mine[model.size + low : model.size + high + 1] = True
-    return mine
 
 
 def _step(now: Derivatives, free: Bools, damping: float, sigma: float) -> Floats:
@@ -228,23 +167,3 @@ def _moved(model: ExactModel, step: Floats, limits: tuple[float, float]) -> tupl
     sigma = float(np.clip(model.sigma * np.exp(wider), *limits))
     stray = max(model.stray * float(np.exp(more)), FEWEST / model.space)
     return joined(replace(candidate, sigma=sigma, stray=stray)), tilted(x, y)
-
-
-def fit_density(points: Floats, model: ExactModel, rounds: int = 3, *, caps: bool = True) -> ExactModel:
-    """Fit the density inside and that of the strays to the points (n, 3), the walls held still."""
-    if not sound(model):
-        return model
-    at, volumes = mass_nodes(model, wall_nodes(model))
-    count = len(model.density.coefficients)
-    terms, nodes = Density.terms(points, count), Density.terms(at, count)
-    for _ in range(rounds):
-        share = share_of(points, model, caps=caps)
-        coefficients = model.density.coefficients.copy()
-        mass = max(float(np.exp(np.clip(nodes @ coefficients, -50, 50)) @ volumes), 1e-12)
-        change = np.log(max(float(share.sum()), 1.0) / mass)
-        coefficients[0] += float(np.clip(change, -MOST_CHANGE, MOST_CHANGE))
-        if count > 1:
-            coefficients = regressed(coefficients, nodes, volumes, share @ terms, steps=4)
-        stray = float(np.clip((1 - share).sum(), FEWEST, STRAY_MOST * len(points))) / model.space
-        model = replace(model, density=Density(coefficients), stray=stray)
-    return model

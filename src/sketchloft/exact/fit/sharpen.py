@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sketchloft.cloud import Floats
-from sketchloft.exact.fit.climb import climb, fit_density
+from sketchloft.exact.fit.climb import climb
 from sketchloft.exact.fit.expected import empty_shell
+from sketchloft.exact.fit.fit_density import fit_density
 from sketchloft.exact.fit.likelihood import beside_walls, value_of
 from sketchloft.exact.model.exact_model import ExactModel, thicker
 

@@ -7,8 +7,10 @@ from dataclasses import replace
 import numpy as np
 
 from sketchloft.cloud import Floats
+from sketchloft.exact.changes.change import Change
+from sketchloft.exact.changes.free_trial import SETTLED
 from sketchloft.exact.changes.merges import merges
-from sketchloft.exact.changes.trial import SETTLED, Change, fitted
+from sketchloft.exact.changes.trial import fitted
 from sketchloft.exact.changes.worth import worth
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.search.stray_strokes import Strays, stray_strokes

@@ -7,7 +7,8 @@ import numpy as np
 from sketchloft.cloud import Floats
 from sketchloft.exact.changes.round_ends import capped
 from sketchloft.exact.changes.worth import worth
-from sketchloft.exact.fit.climb import climb, fit_density
+from sketchloft.exact.fit.climb import climb
+from sketchloft.exact.fit.fit_density import fit_density
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.surgery import with_split
 from sketchloft.exact.search.box_along import box_along, box_sizes, evenly_filled

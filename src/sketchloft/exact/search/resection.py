@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from sketchloft.cloud import Floats
+from sketchloft.exact.changes.change import Change
 from sketchloft.exact.changes.misfit import misfit
-from sketchloft.exact.changes.trial import Change, tried
+from sketchloft.exact.changes.trial import tried
 from sketchloft.exact.fit.clear import clear
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.surgery import with_run

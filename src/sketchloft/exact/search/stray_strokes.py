@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from sketchloft.cloud import Floats, Ints
 from sketchloft.exact.changes.worth import worth
-from sketchloft.exact.fit.climb import climb, fit_density
+from sketchloft.exact.fit.climb import climb
+from sketchloft.exact.fit.fit_density import fit_density
 from sketchloft.exact.fit.likelihood import beside_walls, losses
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.soundness import sound

@@ -11,7 +11,7 @@ from sketchloft.cloud import Floats
 from sketchloft.exact.changes.evidence import improved
 from sketchloft.exact.changes.filleted_walls import fillets
 from sketchloft.exact.changes.worth import worth
-from sketchloft.exact.fit.climb import fit_density
+from sketchloft.exact.fit.fit_density import fit_density
 from sketchloft.exact.fit.likelihood import value_of
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.surgery import with_run

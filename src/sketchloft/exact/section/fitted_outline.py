@@ -8,7 +8,8 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.dispersion import thinned
-from sketchloft.exact.fit.climb import climb, climbed, fit_density
+from sketchloft.exact.fit.climb import climb, climbed
+from sketchloft.exact.fit.fit_density import fit_density
 from sketchloft.exact.fit.likelihood import Evaluation, evaluate
 from sketchloft.exact.fit.schwarz import evidence
 from sketchloft.exact.model.density import Density

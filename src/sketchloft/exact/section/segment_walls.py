@@ -8,7 +8,8 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.dispersion import clump, thinned
-from sketchloft.exact.fit.climb import climb, fit_density
+from sketchloft.exact.fit.climb import climb
+from sketchloft.exact.fit.fit_density import fit_density
 from sketchloft.exact.fit.likelihood import evaluate
 from sketchloft.exact.fit.schwarz import evidence
 from sketchloft.exact.model.density import Density

@@ -10,9 +10,10 @@ from sketchloft.cloud import Floats
 from sketchloft.dispersion import clump, dispersion
 from sketchloft.errors import StageError
 from sketchloft.exact.changes.evidence import merged
-from sketchloft.exact.changes.trial import MOST_NOISE
+from sketchloft.exact.changes.free_trial import MOST_NOISE
 from sketchloft.exact.changes.worth import worth
-from sketchloft.exact.fit.climb import climb, fit_density
+from sketchloft.exact.fit.climb import climb
+from sketchloft.exact.fit.fit_density import fit_density
 from sketchloft.exact.fit.likelihood import beside_walls
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.section.level_set import LevelSet, hollow_share, level_set, on_grid

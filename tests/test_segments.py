@@ -6,7 +6,10 @@ import numpy as np
 import pytest
 
 from sketchloft.cloud import Floats
+from sketchloft.dispersion import clump
+from sketchloft.exact.model.density import Density
 from sketchloft.exact.section.section_contours import plan_view
+from sketchloft.exact.section.segment_walls import segment_run
 from sketchloft.exact.section.twist import seems_to_turn, twist_of, untwisted
 from sketchloft.exact.start.segments import SegmentsParams, segments
 from sketchloft.exact.start.start import start_along
@@ -138,3 +141,18 @@ def test_untwisted_points_fill_one_section() -> None:
     flat = untwisted(plan, heights, 1.2).points
     turned = np.linalg.eigvalsh(np.cov(flat.T))
     assert np.sqrt(12 * turned) == pytest.approx([0.24, 0.6], rel=0.03)
+
+
+@pytest.mark.parametrize("twist", [0.0, 1.6])
+def test_a_segment_that_shows_no_turn_has_that_of_the_whole_where_it_fits(twist: float) -> None:
+    """Points of strokes say so little that a short segment seems to go straight up."""
+    points, together = bar(twist, 4), 12.0
+    part = points[np.abs(points[:, 2]) < 0.12]
+    plan = plan_view(part, clump(together))
+    assert twist_of(plan, part[:, 2] - plan.height, clump(together)) == 0
+    density = Density(np.array([np.log(len(part) / 0.06), 0.0, 0.0, 0.0]))
+    for turn in (0.0, 1.6):
+        run = segment_run(part, (-0.12, 0.12), 0.006, together, density, turn=turn)
+        assert run is not None
+        (wall,) = run.walls
+        assert wall.kind.startswith("twisted") == (turn == twist != 0)

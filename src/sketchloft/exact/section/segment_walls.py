@@ -43,6 +43,7 @@ def segment_run(
     density: Density,
     *,
     rough: bool = False,
+    turn: float = 0.0,
     workers: Workers = ALONE,
 ) -> Run | None:
     """Find the walls of a segment; None if its points have no section.
@@ -61,21 +62,22 @@ def segment_run(
         Inside, about.
     rough : bool
         Whether a few kinds of sections will do.
+    turn : float
+        Turn per height that the thing as a whole seems to have; tried where the segment shows none.
     workers : Workers, optional
     """
     in_row = clump(together)
     plan = plan_view(points, in_row)
     heights = points[:, 2] - plan.height
     twist = twist_of(plan, heights, in_row)
-    if twist:
-        plan = untwisted(plan, heights, twist)
-    shape = recognise_section(plan.points, together, rough=rough, workers=workers)
-    if shape is None:
-        return None
+    runs: list[Run] = []
+    for turns in (twist,) if twist or not turn else (0.0, turn):
+        view = untwisted(plan, heights, turns) if turns else plan
+        shape = recognise_section(view.points, together, rough=rough, workers=workers)
+        runs += [] if shape is None else _runs(view, shape, ends, turns)
     every = len(points) // MOST_POINTS + 1
     points, together = points[::every], thinned(together, every)
     best: tuple[float, ExactModel] | None = None
-    runs = _runs(plan, shape, ends, twist)
     for model in workers.each(_fitted, [(points, run, ends, sigma, density) for run in runs]):
         walls = model.stack.runs[0].walls
         if not all(covers(wall, ends[0] - REACH, ends[1] + REACH) for wall in walls):

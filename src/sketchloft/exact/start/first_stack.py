@@ -7,9 +7,12 @@ import itertools
 import numpy as np
 
 from sketchloft.cloud import Floats
+from sketchloft.dispersion import clump
 from sketchloft.exact.model.density import Density
 from sketchloft.exact.model.exact_model import ExactModel, model_of
+from sketchloft.exact.section.section_contours import plan_view
 from sketchloft.exact.section.segment_walls import segment_run
+from sketchloft.exact.section.twist import seems_to_turn, twist_of
 from sketchloft.stack import Run, Stack
 from sketchloft.workers import ALONE, Workers
 
@@ -36,6 +39,7 @@ def first_stack(
     Segments too thin or too empty for a section of their own are left to their neighbours. None where
     no segment has a section. A rough one knows few kinds of sections.
     """
+    turn = _turn(points, together)
     runs: list[Run] = []
     breaks: list[float] = []
     last = float(cuts[0])
@@ -45,7 +49,7 @@ def first_stack(
         if high - low < blur or len(inner) < FEWEST:
             continue
         ends = low + margin, high - margin
-        run = segment_run(inner, ends, sigma, together, density, rough=rough, workers=workers)
+        run = segment_run(inner, ends, sigma, together, density, rough=rough, turn=turn, workers=workers)
         if run is not None:
             runs.append(run)
             breaks.append((low + last) / 2)
@@ -55,3 +59,11 @@ def first_stack(
     breaks[0] = float(cuts[0])
     stack = Stack(np.array([*breaks, float(cuts[-1])]), tuple(runs))
     return model_of(stack, sigma, density, 1.0 / space, space)
+
+
+def _turn(points: Floats, together: float) -> float:
+    """Turn per height that all sections seem to have, as one; 0 where they have none."""
+    in_row = clump(together)
+    plan = plan_view(points, in_row)
+    heights = points[:, 2] - plan.height
+    return twist_of(plan, heights, in_row) if seems_to_turn(plan, heights, in_row) else 0.0

@@ -72,7 +72,8 @@ def tried_free(
         now, _ = climbed(now, steps, runs=change.around, noise=k > 0, most=MOST_NOISE, enough=enough)
         candidate = now.model
         gain = value(candidate) - least
-        if gain < -PATIENCE or (k and gain + BEYOND * promise(now, change.around) / together < -BLURRED):
+        left = BEYOND * promise(now, change.around, noise=True) / together
+        if gain < -PATIENCE or gain + left < -BLURRED:
             return None, gain
     candidate = natural_joins(candidate)
     gain = value(candidate) - least

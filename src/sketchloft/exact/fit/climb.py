@@ -102,22 +102,24 @@ def climbed(now: Evaluation, steps: int, **motion: Unpack[Motion]) -> tuple[Eval
     return now, turn
 
 
-def promise(now: Evaluation, runs: range) -> float:
+def promise(now: Evaluation, runs: range, *, noise: bool = False) -> float:
     """Log likelihood that the walls of some runs would gain by moving, as its slopes say (score test).
 
     Parameters
     ----------
     now : Evaluation
     runs : range
+    noise : bool
         As for `climb`.
     """
     if not np.isfinite(now.value):
         return 0.0
     model = now.model
-    free = free_parameters(model, {"runs": runs})
+    free = free_parameters(model, {"runs": runs, "noise": noise})
     index = np.flatnonzero(free)
     information = now.derivatives.information[np.ix_(index, index)]
-    score, reach = now.derivatives.score[index], now.derivatives.reach[index]
+    score, reach = now.derivatives.score[index], now.derivatives.reach[index].copy()
+    reach[index == len(free) - 2] = model.sigma  # what a unit of its logarithm adds to the noise
     step = np.linalg.solve(information + np.diag(_floor(information, reach, model.sigma)), score)
     farthest = float(np.abs(step * reach).max(initial=0.0)) / (TRUST * model.sigma)
     share = 1 / max(farthest, 1.0)

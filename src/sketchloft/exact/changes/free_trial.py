@@ -27,6 +27,8 @@ BEYOND = 2.0
 """How much more than the slopes promise a change may gain: they hold for small movements."""
 BLURRED = 10.0
 """What the noise that suits a free wall may gain beside."""
+MUCH = 5.0
+"""What a model must promise to gain by itself for that to be found out before the change is fitted."""
 PATIENCE = 400.0
 """A free wall that is still so much worse is given up: it starts from contours and has far to go."""
 SHARP = 0.006
@@ -57,24 +59,32 @@ def tried_free(
         return worth(inner, model, together, count) + others
 
     model = fit_density(points, model, 1)
-    least = value(model) + change.handicap
+    base = value(model)
+    least = base + change.handicap
     gain = value(candidate) - least
     if gain + BEYOND * promise(evaluate(near, candidate), change.around) / together < -BLURRED:
         return None, gain
-    # What the model would gain by the same steps is not to the credit of the change.
+
+    def credit() -> float:
+        """What the model would gain by the same steps, which is not to the credit of the change."""
+        settled, _, _ = climb(near, model, SETTLED, runs=before, noise=True, most=MOST_NOISE, enough=enough)
+        return max(value(fit_density(points, settled, 1)) - base, 0.0)
+
     before = change.before(model)
-    settled, _, _ = climb(near, model, SETTLED, runs=before, noise=True, most=MOST_NOISE, enough=enough)
-    least = max(least, value(fit_density(points, settled, 1)) + change.handicap)
+    early = promise(evaluate(near, model), before, noise=True) / together > MUCH
+    owed = credit() if early else 0.0
     for k, steps in enumerate((STEPS[0], *STEPS, SETTLED)):
         if k:
             candidate = fit_density(points, candidate, 1)
         now = evaluate(beside(near, candidate), joined(candidate))
         now, _ = climbed(now, steps, runs=change.around, noise=k > 0, most=MOST_NOISE, enough=enough)
         candidate = now.model
-        gain = value(candidate) - least
+        gain = value(candidate) - least - owed
         left = BEYOND * promise(now, change.around, noise=True) / together
         if gain < -PATIENCE or gain + left < -BLURRED:
             return None, gain
     candidate = natural_joins(candidate)
-    gain = value(candidate) - least
+    gain = value(candidate) - least - owed
+    if gain > 0 and not early:
+        gain -= credit()
     return replace(candidate, sigma=sigma) if gain > 0 else None, gain

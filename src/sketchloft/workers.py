@@ -140,12 +140,11 @@ class Workers:
             Results, in the order of the arguments.
         """
         jobs = [Job(partial(function, *part, **same)) for part in parts]
-        for job in jobs[:-1]:
-            self._give(job)
+        for job in jobs:
+            if job is not jobs[-1]:  # with the last there is nothing else to do here meanwhile
+                self._give(job)
             if not job.elsewhere:
                 job.do()
-        for job in jobs[-1:]:  # there is nothing else to do here meanwhile
-            job.do()
         return [job.result() for job in jobs]
 
     def first(

@@ -10,7 +10,7 @@ from sketchloft.cloud import Floats
 from sketchloft.exact.changes.change import Change
 from sketchloft.exact.changes.deciding import at_heights, beside, beside_either
 from sketchloft.exact.changes.worth import worth
-from sketchloft.exact.fit.climb import climb, climbed, promise
+from sketchloft.exact.fit.climb import climbed, promise
 from sketchloft.exact.fit.fit_density import fit_density
 from sketchloft.exact.fit.likelihood import evaluate
 from sketchloft.exact.model.exact_model import ExactModel
@@ -67,11 +67,11 @@ def tried_free(
 
     def credit() -> float:
         """What the model would gain by the same steps, which is not to the credit of the change."""
-        settled, _, _ = climb(near, model, SETTLED, runs=before, noise=True, most=MOST_NOISE, enough=enough)
-        return max(value(fit_density(points, settled, 1)) - base, 0.0)
+        settled, _ = climbed(held, SETTLED, runs=before, noise=True, most=MOST_NOISE, enough=enough)
+        return max(value(fit_density(points, settled.model, 1)) - base, 0.0)
 
-    before = change.before(model)
-    early = promise(evaluate(near, model), before, noise=True) / together > MUCH
+    held, before = evaluate(near, joined(model)), change.before(model)
+    early = promise(held, before, noise=True) / together > MUCH
     owed = credit() if early else 0.0
     for k, steps in enumerate((STEPS[0], *STEPS, SETTLED)):
         if k:

@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterator
 
 from sketchloft.cloud import Floats
 from sketchloft.exact.changes.change import Change, Key
-from sketchloft.exact.changes.changes import closings, fillings, splits, swaps
 from sketchloft.exact.changes.filleted_walls import filleted
 from sketchloft.exact.changes.free_outlines import with_poles_that_pay
 from sketchloft.exact.changes.free_profiles import splined
@@ -16,6 +15,7 @@ from sketchloft.exact.changes.free_walls import lofted, ruled
 from sketchloft.exact.changes.merges import merges
 from sketchloft.exact.changes.rings import rings
 from sketchloft.exact.changes.round_ends import round_ends
+from sketchloft.exact.changes.run_changes import closings, fillings, splits, swaps
 from sketchloft.exact.changes.trial import tried
 from sketchloft.exact.changes.worth import worth
 from sketchloft.exact.fit.climb import climb

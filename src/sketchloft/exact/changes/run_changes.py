@@ -1,4 +1,4 @@
-"""Changes: what a stack could be instead, one run at a time."""
+"""Run changes: what a stack could be instead, one run at a time."""
 
 from __future__ import annotations
 

@@ -9,7 +9,7 @@ from sketchloft.cloud import Floats
 from sketchloft.dispersion import dispersion, thinned
 from sketchloft.exact.section.level_set import level_set, on_grid
 from sketchloft.exact.section.section_contours import contours
-from sketchloft.exact.start.start import SEARCH_POINTS
+from sketchloft.exact.start.seen import SEARCH_POINTS
 from sketchloft.ring import ring_area
 from sketchloft.sample import GOALS, Fill, FillParams, sample_goal
 

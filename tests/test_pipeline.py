@@ -219,7 +219,7 @@ def test_what_the_exact_method_cannot_model_is_lofted_and_it_is_said(monkeypatch
 
     cloud, seen = sample_goal(GOALS["cylinder"], 1500, seed=22), list[str]()
     expected = only(reconstruct(cloud, PAPER))
-    monkeypatch.setattr("sketchloft.pipeline.exact_body", gives_up)
+    monkeypatch.setattr("sketchloft.exact.exact_body.exact_body", gives_up)
     result = reconstruct(cloud, Params(direction=Z), seen.append)
     (body,) = result.bodies
     assert isinstance(body, BodyModel)

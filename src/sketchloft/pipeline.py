@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import importlib
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from sketchloft.bodies import BodiesParams, separate_bodies
-from sketchloft.cloud import MIN_POINTS, CleanCloud, Floats, PointCloud, clean
+from sketchloft.cloud import MIN_POINTS, CleanCloud, Floats, Ints, PointCloud, clean
 from sketchloft.direction import Direction, DirectionParams, slicing_direction
 from sketchloft.edge_points import EdgePoints, EdgePointsParams, edge_points
 from sketchloft.errors import ModelError, StageError, UsageError
-from sketchloft.exact.body import EXACT_STAGES, ExactBody, ExactParams, exact_body
-from sketchloft.exact.planned import check_bodies, planned_body
+from sketchloft.exact.body import EXACT_MODULES, EXACT_STAGES, ExactBody, ExactParams
 from sketchloft.frame import Frame, frame_along
 from sketchloft.loft import LoftParams, Section
-from sketchloft.plan.plan import Plan
 from sketchloft.shapes.choice import ShapesParams
 from sketchloft.shapes.recognise import recognise
 from sketchloft.slice_planes import SlicePlanes, SlicePlanesParams, slice_planes
@@ -29,8 +28,19 @@ from sketchloft.workers import ALONE, Workers
 if TYPE_CHECKING:  # the kernel takes most of a second to load
     from sketchloft.brep.facts import SolidFacts
     from sketchloft.brep.solid import Solid
+    from sketchloft.exact.start.first_look import FirstLook
+    from sketchloft.plan.plan import Plan
 
-__all__ = ["EXACT_STAGES", "STAGES", "BodyModel", "Params", "Progress", "Reconstruction", "reconstruct"]
+__all__ = [
+    "EXACT_MODULES",
+    "EXACT_STAGES",
+    "STAGES",
+    "BodyModel",
+    "Params",
+    "Progress",
+    "Reconstruction",
+    "reconstruct",
+]
 
 STAGES = (
     "input",
@@ -43,6 +53,9 @@ STAGES = (
     "loft",
     "solid",
 )
+
+KERNEL = "sketchloft.brep.build_stack"
+"""What makes a stack a solid."""
 
 Method = Literal["exact", "paper"]
 
@@ -187,15 +200,39 @@ def reconstruct(
     progress("input")
     cleaned = clean(cloud)
     progress("bodies")
-    parts = separate_bodies(cleaned.points, params.bodies)
+    parts = _parts(cleaned.points, params, workers)
     if params.plan is not None:
+        from sketchloft.exact.planned import check_bodies  # noqa: PLC0415  as below
+
         check_bodies(params.plan, len(parts))
     names = [cloud.name] if len(parts) == 1 else [f"{cloud.name}-{i + 1}" for i in range(len(parts))]
     bodies = [
-        _body(name, cleaned.points[part], cleaned.centre, params, progress, workers=workers, index=i)
-        for i, (name, part) in enumerate(zip(names, parts, strict=True))
+        _body(
+            name,
+            cleaned.points[part],
+            cleaned.centre,
+            params,
+            progress,
+            look=look,
+            workers=workers,
+            index=i,
+        )
+        for i, (name, (part, look)) in enumerate(zip(names, parts, strict=True))
     ]
     return Reconstruction(cleaned, params, tuple(bodies))
+
+
+def _parts(points: Floats, params: Params, workers: Workers) -> Sequence[tuple[Ints, FirstLook | None]]:
+    """Which points each body has and, where its direction is to be found, a first look at it."""
+    if params.method == "paper" or params.plan is not None or params.direction.axis != "auto":
+        return [(part, None) for part in separate_bodies(points, params.bodies)]
+    from sketchloft.exact.start.first_look import looked_over  # noqa: PLC0415  as below
+
+    found = workers.begin(looked_over, points, params.bodies, params.exact.segments)
+    # What takes a second to load does so while a worker looks at the points.
+    for module in (KERNEL, *EXACT_MODULES):
+        importlib.import_module(module)
+    return found.result()
 
 
 def _body(
@@ -205,6 +242,7 @@ def _body(
     params: Params,
     progress: Progress,
     *,
+    look: FirstLook | None,
     workers: Workers,
     index: int,
 ) -> ExactBody | BodyModel:
@@ -214,15 +252,20 @@ def _body(
             stage="bodies",
         )
     if params.plan is not None:
+        from sketchloft.exact.planned import planned_body  # noqa: PLC0415  as below
+
         fit = params.plan.fits_sizes(index)
         return planned_body(points, centre, params.plan.bodies[index], progress, fit=fit)
     if params.method == "exact":
+        from sketchloft.exact.exact_body import exact_body  # noqa: PLC0415  workers start while it loads
+
         try:
             return exact_body(
                 name,
                 points,
                 centre,
                 axis=params.direction.axis,
+                look=look,
                 params=params.exact,
                 progress=progress,
                 workers=workers,

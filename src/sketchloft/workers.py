@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import contextlib
+import importlib
 import itertools
 import multiprocessing
 import os
 import signal
 import threading
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any, Generic, ParamSpec, TypeVar
 
@@ -60,10 +61,10 @@ class Job(Generic[T]):
 class _Worker:
     """A process that does one job at a time."""
 
-    def __init__(self) -> None:
+    def __init__(self, modules: Sequence[str]) -> None:
         context = multiprocessing.get_context("spawn")
         self._here, there = context.Pipe()
-        self._process = context.Process(target=_work, args=(there,), daemon=True)
+        self._process = context.Process(target=_work, args=(there, modules), daemon=True)
         with _interrupts_ignored():
             self._process.start()
         there.close()
@@ -103,10 +104,12 @@ class Workers:
     Parameters
     ----------
     count : int
+    modules : sequence of str, optional
+        What they load before there is work to do.
     """
 
-    def __init__(self, count: int) -> None:
-        self._workers = [_Worker() for _ in range(count)]
+    def __init__(self, count: int, modules: Sequence[str] = ()) -> None:
+        self._workers = [_Worker(modules) for _ in range(count)]
 
     def begin(self, function: Callable[P, T], *args: P.args, **kwargs: P.kwargs) -> Job[T]:
         """Let a worker that is free do a piece of work.
@@ -202,12 +205,14 @@ ALONE = Workers(0)
 
 
 @contextlib.contextmanager
-def hire(count: int | None = None) -> Iterator[Workers]:
+def hire(count: int | None = None, modules: Sequence[str] = ()) -> Iterator[Workers]:
     """Have so many workers until the context ends, or one on each core that is to spare, a few at most.
 
     Parameters
     ----------
     count : int, optional
+    modules : sequence of str, optional
+        What they load before there is work to do.
 
     Notes
     -----
@@ -215,7 +220,7 @@ def hire(count: int | None = None) -> Iterator[Workers]:
     ``if __name__ == "__main__"``. The command line has one.
     """
     try:
-        team = Workers(min(_cores() - 1, MOST) if count is None else count)
+        team = Workers(min(_cores() - 1, MOST) if count is None else count, modules)
     except OSError:  # where no process may be started
         team = ALONE
     try:
@@ -231,8 +236,10 @@ def _cores() -> int:
     return os.cpu_count() or 1
 
 
-def _work(orders: Connection) -> None:
+def _work(orders: Connection, modules: Sequence[str]) -> None:
     """Do what is ordered, until there is nobody to order any more."""
+    # Beside what follows: whoever sends an order waits until it is taken.
+    threading.Thread(target=_load, args=(modules,)).start()
     with contextlib.suppress(EOFError, OSError):
         while True:
             work = orders.recv()
@@ -241,6 +248,11 @@ def _work(orders: Connection) -> None:
             except Exception:  # whoever waits does it again, and sees what is raised
                 found = None, False
             orders.send(found)
+
+
+def _load(modules: Sequence[str]) -> None:
+    for module in modules:
+        importlib.import_module(module)
 
 
 @contextlib.contextmanager

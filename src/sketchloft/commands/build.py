@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter, validators
 
@@ -16,19 +16,17 @@ from sketchloft.direction import DirectionParams, parse_axis
 from sketchloft.edge_points import EdgePointsParams, parse_probe_radius
 from sketchloft.errors import UsageError
 from sketchloft.exact.body import ExactParams
-from sketchloft.exact.planned import plan_of
 from sketchloft.io import read_cloud
 from sketchloft.loft import Between, LoftParams
 from sketchloft.output import check_writable
-from sketchloft.pipeline import EXACT_STAGES, STAGES, Method, Params, reconstruct
-from sketchloft.plan.plan import Plan
-from sketchloft.plan.read import read_plan
-from sketchloft.plan.write import write_plan
+from sketchloft.pipeline import EXACT_MODULES, EXACT_STAGES, STAGES, Method, Params, reconstruct
 from sketchloft.shapes.choice import ShapesParams, parse_shapes
 from sketchloft.slice_planes import CentralAxis, SlicePlanesParams, parse_per_slice
-from sketchloft.summary import summary, summary_lines
 from sketchloft.work_points import Working, WorkPointsParams
 from sketchloft.workers import hire
+
+if TYPE_CHECKING:
+    from sketchloft.plan.plan import Plan
 
 __all__ = ["build"]
 
@@ -113,12 +111,14 @@ def build(
     searches = method == "exact" and plan is None
     with (
         progress(stages, quiet=quiet, verbose=verbose) as begin,
-        hire(workers if searches else 0) as team,
+        hire(workers if searches else 0, EXACT_MODULES) as team,
     ):
         begin("read")
         points = read_cloud(cloud, unit=unit)
         result = reconstruct(points, params, begin, team)
         begin("write")
+        from sketchloft.summary import summary, summary_lines  # noqa: PLC0415
+
         solids = [NamedSolid(body.name, body.solid) for body in result.bodies]
         if report is not None:
             from sketchloft.report.html import write_report  # noqa: PLC0415  matplotlib takes a second
@@ -127,6 +127,9 @@ def build(
             write_report(result, report, unit=unit)
         write_model(outputs, solids, unit)
         if save_plan is not None:
+            from sketchloft.exact.planned import plan_of  # noqa: PLC0415
+            from sketchloft.plan.write import write_plan  # noqa: PLC0415
+
             write_plan(plan_of(result, unit), save_plan)
     written = [str(path) for path in (*outputs, report, save_plan) if path is not None]
     figures = summary(result, unit)
@@ -154,6 +157,8 @@ def _plan(plan: Path | None, save_plan: Path | None, method: Method, axis: str, 
         return None
     if axis != "auto":
         raise UsageError("axis: the plan says the direction; leave out --axis, or change it in the plan")
+    from sketchloft.plan.read import read_plan  # noqa: PLC0415  workers may start while the method loads
+
     read = read_plan(plan)
     if read.unit != unit:
         raise UsageError(f"unit: found {unit}, but {plan} is in {read.unit}; give --unit {read.unit}")

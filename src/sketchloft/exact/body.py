@@ -1,32 +1,32 @@
-"""Exact: the method that models a body as runs of exact walls, fitted to all its points at once."""
+"""Exact: what the method that models a body as runs of exact walls is asked, and what it finds."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from sketchloft.cloud import Floats
-from sketchloft.direction import Axis
-from sketchloft.errors import ModelError
-from sketchloft.exact.model.exact_model import ExactModel
-from sketchloft.exact.search.searches import searched
-from sketchloft.exact.start.direction import Candidate
 from sketchloft.exact.start.segments import SegmentsParams
-from sketchloft.exact.start.start import directions
 from sketchloft.frame import Frame
-from sketchloft.robust_size import middle_and_size
-from sketchloft.workers import ALONE, Workers
 
-if TYPE_CHECKING:
+if TYPE_CHECKING:  # which take their time to load
     from sketchloft.brep.facts import SolidFacts
     from sketchloft.brep.solid import Solid
+    from sketchloft.exact.model.exact_model import ExactModel
+    from sketchloft.exact.start.direction import Candidate
 
-__all__ = ["EXACT_STAGES", "ExactBody", "ExactParams", "exact_body"]
+__all__ = ["EXACT_MODULES", "EXACT_STAGES", "ExactBody", "ExactParams"]
 
 EXACT_STAGES = ("input", "bodies", "direction", "runs", "evidence", "fit", "solid")
+
+EXACT_MODULES = (
+    "sketchloft.exact.exact_body",
+    "scipy.ndimage",
+    "scipy.sparse.csgraph",
+    "scipy.spatial",
+    "scipy.special",
+)
+"""What the method needs and takes half a second to load."""
 
 
 @dataclass(frozen=True)
@@ -82,71 +82,3 @@ class ExactBody:
     model: ExactModel
     solid: Solid
     facts: SolidFacts
-
-
-def exact_body(
-    name: str,
-    points: Floats,
-    origin: Floats,
-    *,
-    axis: Axis,
-    params: ExactParams,
-    progress: Callable[[str], None],
-    workers: Workers = ALONE,
-) -> ExactBody:
-    """Model a body.
-
-    Parameters
-    ----------
-    name : str
-    points : (n, 3) float array
-        About `origin`.
-    origin : (3,) float array
-    axis : "auto" or (3,) tuple of float
-        Slicing direction.
-    params : ExactParams
-    progress : callable
-        Called with the name of each stage when it begins.
-    workers : Workers, optional
-
-    Raises
-    ------
-    StageError
-        If no section is found.
-    ModelError
-        If the solid fails a check.
-    """
-    progress("direction")
-    middle, scale = middle_and_size(points)
-    unit = (points - middle) / scale
-    compared = workers.begin(directions, unit, params.segments) if axis == "auto" else None
-    # The kernel takes most of a second, in which a worker compares the directions.
-    from sketchloft.brep.build_stack import built_stack  # noqa: PLC0415
-
-    candidates = () if compared is None else compared.result()
-    vector = candidates[0].vector if candidates else np.asarray(axis, dtype=float)
-    refused: list[ModelError] = []
-    for found in searched(unit, vector, candidates, params.segments, progress=progress, workers=workers):
-        start, frame = found.start, found.frame
-        progress("solid")
-        try:
-            solid, facts = built_stack(found.model.stack, origin + middle, frame.axes, scale)
-            break
-        except ModelError as error:
-            refused.append(error)
-    else:
-        raise refused[-1]
-    return ExactBody(
-        name,
-        found.points,
-        frame.direction,
-        start.candidates,
-        frame,
-        middle,
-        scale,
-        start.cuts,
-        start.first,
-        found.model,
-        solid,
-        facts,
-    )

@@ -22,7 +22,8 @@ from sketchloft.exact.model.exact_model import ExactModel, thicker
 from sketchloft.exact.search.stray_strokes import counted, stray_strokes
 from sketchloft.exact.section.level_set import level_set
 from sketchloft.exact.start.inside_density import inside_density
-from sketchloft.exact.start.start import BESIDE, sampled
+from sketchloft.exact.start.seen import sampled
+from sketchloft.exact.start.start import BESIDE
 from sketchloft.exact.start.stray_space import stray_space
 from sketchloft.plan.from_model import planned_from_model
 from sketchloft.plan.plan import Plan, PlannedBody

@@ -11,6 +11,7 @@ from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.search.search import Found, search
 from sketchloft.exact.start.choose_start import along, apart, other_starts
 from sketchloft.exact.start.direction import Candidate
+from sketchloft.exact.start.seen import Seen
 from sketchloft.exact.start.segments import SegmentsParams
 from sketchloft.exact.start.start import Start, plain, start_along
 from sketchloft.wall.lofted import Lofted
@@ -32,6 +33,7 @@ def searched(
     candidates: tuple[Candidate, ...],
     params: SegmentsParams,
     *,
+    seen: Seen | None,
     progress: Callable[[str], None],
     workers: Workers,
 ) -> Iterator[Found]:
@@ -46,6 +48,8 @@ def searched(
     candidates : tuple of Candidate
         Directions that were compared; where there are none, the direction is given and does not move.
     params : SegmentsParams
+    seen : Seen or None
+        Along the direction, where the points were looked at before.
     progress : callable
         Called with "runs", "evidence" and "fit" as they begin.
     workers : Workers
@@ -66,7 +70,7 @@ def searched(
     """
     look = partial(search, tilt=bool(candidates), progress=progress, workers=workers)
     progress("runs")
-    first = start_along(points, vector, candidates, params, workers=workers)
+    first = start_along(points, vector, candidates, params, seen=seen, workers=workers)
     progress("evidence")
     ends = [look(first)]
     if first.together > 1 and ends[0].model.sigma < BLURRED and not _clear(ends[0]):

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.dispersion import clump, dispersion
+from sketchloft.dispersion import clump
 from sketchloft.errors import StageError
 from sketchloft.exact.changes.evidence import merged
 from sketchloft.exact.changes.free_trial import MOST_NOISE
@@ -16,25 +16,19 @@ from sketchloft.exact.fit.climb import climb
 from sketchloft.exact.fit.fit_density import fit_density
 from sketchloft.exact.fit.likelihood import beside_walls
 from sketchloft.exact.model.exact_model import ExactModel
-from sketchloft.exact.section.level_set import LevelSet, hollow_share, level_set, on_grid
-from sketchloft.exact.start.direction import Candidate, exact_direction
+from sketchloft.exact.start.direction import Candidate
 from sketchloft.exact.start.first_stack import first_stack
-from sketchloft.exact.start.inside_density import inside_density
+from sketchloft.exact.start.seen import Seen, in_frame, sampled, seen_along
 from sketchloft.exact.start.segments import SegmentsParams, segments
-from sketchloft.exact.start.stray_space import stray_space
-from sketchloft.frame import Frame, frame_along, principal_frame
+from sketchloft.frame import Frame, frame_along
 from sketchloft.wall.revolved import Revolved
 from sketchloft.wall.swept import Swept
 from sketchloft.workers import ALONE, Workers
 
-__all__ = ["BESIDE", "SEARCH_POINTS", "Start", "directions", "plain", "sampled", "start_along"]
+__all__ = ["BESIDE", "Start", "plain", "start_along"]
 
 START = 0.006
 """Noise that the search begins with, as a share of the size."""
-SEARCH_POINTS = 12_000
-"""The search looks at no more points; the fit looks at all."""
-DIGITS = 6
-"""Of coordinates: what a unit, an origin or a turn leaves in the last digits must not change the model."""
 BESIDE = 8.0
 """Noise deviations beside the walls within which points are fitted."""
 HOLLOW = 0.4
@@ -97,6 +91,7 @@ def start_along(
     candidates: tuple[Candidate, ...],
     params: SegmentsParams,
     *,
+    seen: Seen | None = None,
     fine: bool = False,
     rough: bool = False,
     workers: Workers = ALONE,
@@ -111,6 +106,8 @@ def start_along(
     candidates : tuple of Candidate
         Directions that were compared; where there are none, the direction is given and does not move.
     params : SegmentsParams
+    seen : Seen, optional
+        Along this direction, where the points were looked at before.
     fine : bool
         Whether heights are cut as finely as independent points would allow.
     rough : bool
@@ -123,31 +120,30 @@ def start_along(
         If no section is found, or the points are on a skin.
     """
     frame = frame_along(vector, points)
-    local = np.round(frame.to_local(points), DIGITS)
-    sample = sampled(local)
-    grid, together, kept = _seen(sample)
-    if hollow_share(grid) > HOLLOW:
+    local = in_frame(points, frame)
+    seen = seen or seen_along(points, vector, params)
+    if seen.hollow > HOLLOW:
         raise StageError(
             "the points lie on the skin of the thing only, and this method needs points inside; "
             "draw the inside too, or use the paper's method",
             stage="runs",
         )
-    density = inside_density(sample, grid, together)
-    cuts = segments(kept, params, clump(together) if fine else together)
+    together = seen.together
+    cuts = segments(seen.kept, params, clump(together)) if fine else seen.cuts
     first = first_stack(
-        kept,
+        seen.kept,
         cuts,
-        grid.blur,
+        seen.blur,
         sigma=START,
         together=together,
-        density=density,
-        space=stray_space(sample, together),
+        density=seen.density,
+        space=seen.space,
         rough=rough,
         workers=workers,
     )
     if first is None:
         raise StageError("found no section that the points fill; draw more of the inside", stage="runs")
-    settled, sample, settling = _settled(sample, first, tilt=bool(candidates))
+    settled, sample, settling = _settled(sampled(local), first, tilt=bool(candidates))
     lean = merged(sample, settled, together, workers)
     return Start(candidates, frame, local, sample, cuts, together, first, settled, lean, settling)
 
@@ -158,39 +154,6 @@ def plain(model: ExactModel) -> bool:
         isinstance(wall, Revolved) or (isinstance(wall, Swept) and not wall.free)
         for wall in model.stack.walls
     )
-
-
-def directions(points: Floats, params: SegmentsParams) -> tuple[Candidate, ...]:
-    """Directions to slice along, the likeliest first.
-
-    Parameters
-    ----------
-    points : (n, 3) float array
-        About 1 across, about their middle.
-    params : SegmentsParams
-
-    Notes
-    -----
-    They are found in the frame of the principal axes, so that they turn with the cloud.
-    """
-    frame = principal_frame(points)
-    grid, together, kept = _seen(sampled(np.round(frame.to_local(points), DIGITS)))
-    mean = kept.mean(axis=0)
-    grid = replace(grid, origin=grid.origin - mean)
-    found = exact_direction(kept - mean, grid, params, clump(together))
-    return tuple(replace(candidate, vector=frame.to_world(candidate.vector)) for candidate in found)
-
-
-def sampled(points: Floats) -> Floats:
-    """Every so many points, as many as the search looks at."""
-    return points[:: len(points) // SEARCH_POINTS + 1]
-
-
-def _seen(points: Floats) -> tuple[LevelSet, float, Floats]:
-    """The level set of points, how many of them go together, and those that are no strays."""
-    together = dispersion(points)
-    grid = level_set(points, clump(together))
-    return grid, together, points[on_grid(grid, points, 2 * grid.blur)]
 
 
 def _settled(points: Floats, model: ExactModel, *, tilt: bool) -> tuple[ExactModel, Floats, Floats]:

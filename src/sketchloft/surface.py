@@ -139,8 +139,9 @@ def spline_at(knots: Floats, degree: int, poles: Floats, at: ArrayLike) -> tuple
 
 def local_bases(knots: Floats, degree: int, at: ArrayLike) -> tuple[Ints, Floats, Floats]:
     """Values and first derivatives at once, as `local_basis` gives either."""
-    x = np.clip(np.atleast_1d(np.asarray(at, dtype=np.float64)), knots[0], knots[-1])
-    span = np.clip(np.searchsorted(knots, x, side="right") - 1, degree, len(knots) - degree - 2)
+    x = np.minimum(np.maximum(np.atleast_1d(np.asarray(at, dtype=np.float64)), knots[0]), knots[-1])
+    span = np.searchsorted(knots, x, side="right") - 1
+    span = np.minimum(np.maximum(span, degree), len(knots) - degree - 2)
     # Functions by rows: the long axis last is what vectorised arithmetic likes.
     beside = knots[span + np.arange(1 - degree, degree + 1)[:, None]]
     below, above = x - beside[degree - 1 :: -1], beside[degree:] - x
@@ -153,7 +154,10 @@ def local_bases(knots: Floats, degree: int, at: ArrayLike) -> tuple[Ints, Floats
             values[r] += above[r] * share
             values[r + 1] = below[p - 1 - r] * share
     rates = degree * lower / (beside[degree:] - beside[:degree])
-    return span - degree, values.T, -np.diff(rates, axis=0, prepend=0.0, append=0.0).T
+    slopes = np.zeros_like(values)
+    slopes[1:] = rates
+    slopes[:-1] -= rates
+    return span - degree, values.T, slopes.T
 
 
 def _blend(rows: Floats, around: tuple[Ints, Floats], along: tuple[Ints, Floats]) -> Floats:

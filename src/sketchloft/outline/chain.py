@@ -12,10 +12,10 @@ import functools
 
 import numpy as np
 
-from sketchloft.cloud import Floats
+from sketchloft.cloud import Floats, Ints
 from sketchloft.gauss import gauss
 from sketchloft.outline.outline import Arc, Boundary, Edge, Segment
-from sketchloft.ring import ring_area
+from sketchloft.ring import following, ring_area
 
 __all__ = ["chain_area", "chain_boundary", "chain_edges", "chords", "edge_normal", "edge_place", "outward"]
 
@@ -29,12 +29,14 @@ PANEL = 8
 
 def chords(vertices: Floats) -> Floats:
     """(m, 2) vectors from each vertex to the next."""
-    return np.roll(vertices, -1, axis=0) - vertices
+    return following(vertices) - vertices
 
 
 def outward(vectors: Floats) -> Floats:
     """Vectors (..., 2) along a counter-clockwise curve turned by a quarter, outwards."""
-    return np.stack([vectors[..., 1], -vectors[..., 0]], axis=-1)
+    turned = np.empty_like(vectors)
+    turned[..., 0], turned[..., 1] = vectors[..., 1], -vectors[..., 0]
+    return turned
 
 
 def edge_place(tau: Floats, bulge: Floats) -> tuple[Floats, Floats]:
@@ -53,6 +55,8 @@ def edge_normal(tau: Floats, bulge: Floats) -> tuple[Floats, Floats]:
 
 def chain_area(vertices: Floats, bulges: Floats) -> float:
     """Signed area within a chain, positive when counter-clockwise."""
+    if not bulges.any():
+        return ring_area(vertices)
     squares = np.square(chords(vertices)).sum(axis=1)
     return ring_area(vertices) + float((squares * _segment_area(bulges)).sum())
 
@@ -73,10 +77,7 @@ def chain_boundary(vertices: Floats, bulges: Floats, count: int) -> Boundary:
     lengths = _lengths(along, bulges)
     shares = np.maximum(2, np.rint(count * lengths / lengths.sum()).astype(np.intp))
     shares[lengths <= VANISHED * lengths.sum()] = 0
-    rules = [_gauss(int(share)) for share in shares]
-    edge = np.repeat(np.arange(len(shares)), [len(nodes) for nodes, _ in rules])
-    fraction = np.concatenate([nodes for nodes, _ in rules])
-    weights = np.concatenate([weights for _, weights in rules])
+    edge, fraction, weights = _rules(tuple(shares.tolist()))
     bulge, chord = bulges[edge], along[edge]
     curve = np.where(bulge == 0, 1.0, bulge)
     tau = np.where(bulge == 0, fraction, np.tan(fraction * np.arctan(curve)) / curve)
@@ -92,6 +93,14 @@ def _lengths(along: Floats, bulges: Floats) -> Floats:
     curve = np.where(bulges == 0, 1.0, bulges)
     ratio = np.where(bulges == 0, 1.0, (1 + curve * curve) * np.arctan(curve) / curve)
     return np.linalg.norm(along, axis=1) * ratio
+
+
+@functools.lru_cache(maxsize=256)
+def _rules(shares: tuple[int, ...]) -> tuple[Ints, Floats, Floats]:
+    """Edge, fraction and weight of all points of edges with about so many each."""
+    rules = [_gauss(share) for share in shares]
+    edge = np.repeat(np.arange(len(shares)), [len(nodes) for nodes, _ in rules])
+    return edge, np.concatenate([nodes for nodes, _ in rules]), np.concatenate([w for _, w in rules])
 
 
 @functools.lru_cache(maxsize=256)

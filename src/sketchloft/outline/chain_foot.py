@@ -120,6 +120,9 @@ def _vertex_foot(points: Floats, edges: Edges, vertex: Ints) -> tuple[Floats, Fl
 def _neighbours(exists: NDArray[np.bool_]) -> tuple[Ints, Ints]:
     """Last edge before each vertex, and first one after it, that have a length."""
     m = len(exists)
+    if exists.all():
+        after = np.arange(m)
+        return after - 1, after
     at = np.arange(2 * m)
     twice = np.tile(exists, 2)
     last = np.maximum.accumulate(np.where(twice, at, -1))

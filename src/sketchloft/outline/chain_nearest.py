@@ -74,6 +74,8 @@ def nearest(points: Floats, edges: Edges) -> Nearest:
     """Nearest edge, among those whose foot is not an end, and nearest vertex of points (n, 2)."""
     size = max(1, BLOCK // len(edges.bulge))
     blocks = [_nearest_block(points[i : i + size], edges) for i in range(0, len(points), size)]
+    if len(blocks) == 1:
+        return blocks[0]
     if not blocks:
         none = np.zeros(0, dtype=np.intp)
         return Nearest(none, none, none > 0, np.zeros(0), np.zeros(0))

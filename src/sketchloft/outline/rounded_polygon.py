@@ -9,7 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sketchloft.cloud import Floats
+from sketchloft.outline.chain import chords
 from sketchloft.outline.chain_outline import ChainOutline
+from sketchloft.ring import following
 
 __all__ = ["RoundedPolygon"]
 
@@ -38,7 +40,7 @@ class RoundedPolygon(ChainOutline):
     @property
     def vector(self) -> Floats:
         """Vertices, then the radius: (2m + 1,)."""
-        return np.r_[self.vertices.ravel(), self.radius]
+        return np.append(self.vertices, self.radius)
 
     def moved(self, vector: Floats) -> Self:
         """Return the polygon with other parameters, the radius within what fits."""
@@ -70,8 +72,8 @@ class RoundedPolygon(ChainOutline):
 def _fitting(vertices: Floats, radius: float) -> float:
     """Radius taken down to the largest with which no two fillets overlap."""
     *_, tangent = _corners(vertices)
-    needed = np.abs(tangent) + np.abs(np.roll(tangent, -1))
-    length = np.linalg.norm(np.roll(vertices, -1, axis=0) - vertices, axis=1)
+    needed = np.abs(tangent) + np.abs(following(tangent))
+    length = np.linalg.norm(chords(vertices), axis=1)
     return float(np.clip(radius, 0.0, (length / np.maximum(needed, 1e-300)).min()))
 
 

@@ -53,7 +53,7 @@ class Revolved:
     @property
     def vector(self) -> Floats:
         """Centre, then the profile's parameters."""
-        return np.r_[self.centre, _profile_vector(self.profile)]
+        return np.concatenate((self.centre, _profile_vector(self.profile)))
 
     def moved(self, vector: Floats) -> Self:
         """Return the wall with other parameters."""
@@ -80,18 +80,12 @@ class Revolved:
         angle = 2 * np.pi * (np.arange(around) + 0.5) / around
         r, slope = radius_at(self.profile, z)
         steep = np.hypot(1.0, slope)
-        e = np.column_stack([np.cos(angle), np.sin(angle)])
-        xy = self.centre + r[:, None, None] * e
-        points = np.concatenate([xy, np.broadcast_to(z[:, None, None], (*xy.shape[:2], 1))], axis=2)
-        normals = np.concatenate(
-            [
-                np.broadcast_to(e, xy.shape) / steep[:, None, None],
-                np.broadcast_to((-slope / steep)[:, None, None], (*xy.shape[:2], 1)),
-            ],
-            axis=2,
-        )
-        areas = np.broadcast_to((weights * r * steep * 2 * np.pi / around)[:, None], xy.shape[:2])
-        return WallBoundary(points.reshape(-1, 3), normals.reshape(-1, 3), areas.ravel())
+        e = np.array([np.cos(angle), np.sin(angle)]).T
+        points, normals = np.empty((len(z), around, 3)), np.empty((len(z), around, 3))
+        points[..., :2], points[..., 2] = self.centre + r[:, None, None] * e, z[:, None]
+        normals[..., :2], normals[..., 2] = e / steep[:, None, None], (-slope / steep)[:, None]
+        areas = np.repeat(weights * r * steep * 2 * np.pi / around, around)
+        return WallBoundary(points.reshape(-1, 3), normals.reshape(-1, 3), areas)
 
 
 def radius_at(profile: Profile, heights: Floats) -> tuple[Floats, Floats]:

@@ -131,7 +131,8 @@ class Swept:
             return self._dome(points)
         if self.still and not self.free:
             seen = self.outline.foot(points[:, :2])
-            normal = np.vstack([seen.normal.T, np.zeros(len(points))]).T
+            normal = np.zeros((3, len(points))).T  # each coordinate in one piece
+            normal[:, :2] = seen.normal
             return WallFoot(seen.distance, normal, seen.slopes, seen.curvature)
         dz = points[:, 2] - self.height
         scale = np.maximum(1 + self.taper * dz, 1e-6)
@@ -189,7 +190,8 @@ class Swept:
         dz = (heights - self.height)[:, None]
         cos, sin = np.cos(self.twist * dz), np.sin(self.twist * dz)
         x, y = (points - self.pivot).T
-        arm = np.stack([x * cos - y * sin, x * sin + y * cos], axis=2)
+        arm = np.empty((len(heights), len(points), 2))
+        arm[..., 0], arm[..., 1] = x * cos - y * sin, x * sin + y * cos
         return self.pivot + dz[..., None] * self.drift + self.scale(heights)[:, None, None] * arm
 
     def boundary(self, low: float, high: float, count: int) -> WallBoundary:
@@ -204,13 +206,8 @@ class Swept:
         cos, sin = np.cos(self.twist * dz), np.sin(self.twist * dz)
         arm = ring.points - self.pivot
         xy = self.carried(ring.points, z)
-        flat = np.stack(
-            [
-                ring.normals[:, 0] * cos - ring.normals[:, 1] * sin,
-                ring.normals[:, 0] * sin + ring.normals[:, 1] * cos,
-            ],
-            axis=2,
-        )
+        (across, along), flat = ring.normals.T, np.empty((*scale.shape[:1], len(arm), 2))
+        flat[..., 0], flat[..., 1] = across * cos - along * sin, across * sin + along * cos
         quarter = np.stack([-arm[:, 1], arm[:, 0]], axis=1)
         slope = (
             -flat @ self.drift
@@ -218,8 +215,9 @@ class Swept:
             - self.twist * scale * np.einsum("ij,ij->i", ring.normals, quarter)
         )
         steep = np.hypot(1.0, slope)
-        points = np.concatenate([xy, np.broadcast_to(z[:, None, None], (*xy.shape[:2], 1))], axis=2)
-        normals = np.concatenate([flat, slope[..., None]], axis=2) / steep[..., None]
+        points, normals = np.empty((*slope.shape, 3)), np.empty((*slope.shape, 3))
+        points[..., :2], points[..., 2] = xy, z[:, None]
+        normals[..., :2], normals[..., 2] = flat / steep[..., None], slope / steep
         areas = weights[:, None] * ring.lengths * scale * steep
         return WallBoundary(points.reshape(-1, 3), normals.reshape(-1, 3), areas.ravel())
 

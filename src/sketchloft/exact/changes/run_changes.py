@@ -110,7 +110,7 @@ def closings(model: ExactModel) -> Iterator[Change]:
         if model.joins[k] == "step" and pole is not None and 0 < side * (pole - breaks[k]) < TIP:
             moved = breaks.copy()
             moved[k] = pole
-            closed = natural_joins(model.moved(model.vector, moved))
+            closed = natural_joins(model.between(moved))
             yield Change(closed, range(j, j + 1), -FLAT)
 
 

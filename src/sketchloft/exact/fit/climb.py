@@ -136,7 +136,7 @@ def _step(now: Derivatives, free: Bools, damping: float, sigma: float) -> Floats
     limit = STRIDE * sigma / np.maximum(now.reach[index], TINY)
     for place, largest in zip((len(free) - 2, len(free) - 1), LARGEST, strict=True):
         limit[index == place] = largest
-    step[index] = np.clip(raw, -limit, limit)
+    step[index] = np.minimum(np.maximum(raw, -limit), limit)
     return step
 
 

@@ -117,8 +117,9 @@ def _fan(spread: WallBoundary) -> tuple[Floats, Floats]:
     share = areas * np.einsum("ij,ij->i", spread.normals[:, :2], spoke) / 2
     x, w = RADIAL
     t, weight = (x + 1) / 2, w / 2
-    points = np.concatenate([np.column_stack([centre + r * spoke, at[:, 2]]) for r in t])
-    return points, np.concatenate([2 * r * v * share for r, v in zip(t, weight, strict=True)])
+    points = np.empty((len(t), len(at), 3))
+    points[..., :2], points[..., 2] = centre + t[:, None, None] * spoke, at[:, 2]
+    return points.reshape(-1, 3), np.ravel((2 * t * weight)[:, None] * share)
 
 
 def section_mass(model: ExactModel, run: Run, height: float) -> float:

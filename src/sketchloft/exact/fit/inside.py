@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -130,7 +131,7 @@ def slopes_of(points: Floats, model: ExactModel, slabs: list[Slab]) -> tuple[Flo
         part_slope, tilt, grown = _section_slopes(points[near], model, slab)
         beside = slope[near]
         for slot, values, farthest in part_slope:
-            columns = slice(slot[0], slot[-1] + 1) if (np.diff(slot) == 1).all() else slot
+            columns = slice(slot[0], slot[-1] + 1) if (slot[1:] - slot[:-1] == 1).all() else slot
             beside[:, columns] += between[:, None] * values
             reach[slot] = np.maximum(reach[slot], farthest)
         away = slab.ends - points[near, 2, None]
@@ -172,8 +173,8 @@ def _section(points: Floats, run: Run, sigma: float) -> Section:
         depth = [np.where(side, d, FAR * sigma) for side, d in zip(sides, depth, strict=True)]
     soft = [ndtr(d / sigma) for d in depth]
     pieces = len(soft) - run.holes
-    outer = np.sum(soft[:pieces], axis=0) if pieces else np.ones(len(points))
-    voids = np.prod(soft[pieces:], axis=0)
+    outer = sum(soft[1:pieces], start=soft[0]) if pieces else np.ones(len(points))
+    voids = math.prod(soft[pieces:], start=np.ones(len(points)))
     return Section(feet, signs, depth, soft, voids, outer * voids)
 
 

@@ -36,9 +36,14 @@ class Density:
     @staticmethod
     def terms(points: Floats, count: int) -> Floats:
         """Values (n, count) of the polynomial's terms."""
-        x, y, z = points.T
-        columns = [np.ones(len(points)), x, y, z, x * x, y * y, z * z, x * y, x * z, y * z]
-        return np.column_stack(columns[:count])
+        terms = np.ones((len(points), count))
+        if count > 1:
+            terms[:, 1:4] = points
+        if count > 4:
+            x, y, z = points.T
+            for k, product in enumerate((x * x, y * y, z * z, x * y, x * z, y * z), 4):
+                terms[:, k] = product
+        return terms
 
 
 def regressed(coefficients: Floats, terms: Floats, weights: Floats, totals: Floats, *, steps: int) -> Floats:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
@@ -53,16 +54,17 @@ class ExactModel:
     joins: tuple[Join, ...]
     core: Floats | None = None
 
-    @property
+    @cached_property
     def vector(self) -> Floats:
         """Every wall's parameters, each tied one once."""
         out = np.empty(self.size)
         for run, slots in zip(self.stack.runs, self.slots, strict=True):
             for wall, slot in zip(run.walls, slots, strict=True):
                 out[slot] = wall.vector
+        out.setflags(write=False)
         return out
 
-    @property
+    @cached_property
     def size(self) -> int:
         """Number of walls' parameters."""
         return 1 + max((int(slot.max()) for slots in self.slots for slot in slots), default=-1)
@@ -82,6 +84,10 @@ class ExactModel:
             for run, slots in zip(self.stack.runs, self.slots, strict=True)
         )
         return replace(self, stack=spanned(Stack(breaks, runs)))
+
+    def between(self, breaks: Floats) -> ExactModel:
+        """Return the model with other breaks."""
+        return replace(self, stack=spanned(replace(self.stack, breaks=breaks)))
 
 
 def thicker(model: ExactModel, factor: float) -> ExactModel:

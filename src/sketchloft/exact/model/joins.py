@@ -31,7 +31,7 @@ def joined(model: ExactModel) -> ExactModel:
         elif 0 < k < len(breaks) - 1:
             breaks[k] = _reached(model.stack.runs[k - 1], model.stack.runs[k], float(breaks[k]))
     breaks = np.maximum.accumulate(breaks)
-    return model.moved(model.vector, breaks)
+    return model.between(breaks)
 
 
 def natural_joins(model: ExactModel) -> ExactModel:

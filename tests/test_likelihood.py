@@ -135,7 +135,7 @@ def shifted(points: Floats, model: ExactModel, i: int, step: float) -> float:
 
 def assert_slopes(points: Floats, model: ExactModel, *, rounded: bool = False) -> None:
     """Scores are the values' central differences, to a fraction of what chance makes of them."""
-    found, step = evaluate(points, model).derivatives, 1e-6
+    found, step = evaluate(points, model).derivatives(), 1e-6
     count = len(found.score)
     some = sorted({*range(0, count, 1 + count // 20), *range(model.size, count)})
     slopes = [(shifted(points, model, i, step) - shifted(points, model, i, -step)) / (2 * step) for i in some]
@@ -168,7 +168,7 @@ def test_scores_of_several_runs_with_pieces_and_a_hole() -> None:
 def test_at_the_truth_scores_are_what_chance_makes_of_them(name: str) -> None:
     """Neither noise nor the curvature of a wall pulls it to one side."""
     points, model = known(one_run(name))
-    found = evaluate(points, model).derivatives
+    found = evaluate(points, model).derivatives()
     moving = model.size + len(model.stack.breaks)
     deviations = (found.score / np.sqrt(np.diag(found.information)))[:moving]
     assert np.abs(deviations).max() < 4
@@ -186,7 +186,7 @@ def test_a_ring_is_pulled_nowhere_where_its_walls_meet() -> None:
     points, model = known(Stack(np.array([-0.12, 0.12]), (Run(walls, 1),)))
     model = natural_joins(tied(model, [((0, 0, k), (0, 1, k)) for k in range(5)]))
     assert (model.size, model.joins) == (5, ("pole", "pole"))
-    found = evaluate(points, model).derivatives
+    found = evaluate(points, model).derivatives()
     assert np.abs(found.score / np.sqrt(np.maximum(np.diag(found.information), 1e-12)))[:5].max() < 3
     larger = joined(model.moved(model.vector + [0, 0, 0, 0.01, 0], model.stack.breaks))
     assert value_of(points, larger) < value_of(points, model)
@@ -215,7 +215,7 @@ def test_what_is_unsound_explains_nothing_and_has_no_slopes() -> None:
     found = evaluate(points, model.moved(model.vector, BREAKS[::-1]))
     assert found.value == -np.inf
     with pytest.raises(ValueError, match="not sound"):
-        _ = found.derivatives
+        _ = found.derivatives()
 
 
 def test_the_order_of_the_points_is_nothing_to_a_climb() -> None:

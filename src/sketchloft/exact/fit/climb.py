@@ -82,14 +82,14 @@ def climbed(now: Evaluation, steps: int, **motion: Unpack[Motion]) -> tuple[Eval
             free[[now.model.size, -LAST - 1]] = False
         moved = None
         for _ in range(6):
-            step = _step(now.derivatives, free, damping, now.model.sigma)
+            step = _step(now.derivatives(free), free, damping, now.model.sigma)
             candidate, rotation = _moved(
                 now.model, step, (motion.get("least", LEAST), motion.get("most", np.inf))
             )
             turned = now.points @ rotation if motion.get("tilt") else now.points
             then = evaluate(turned, candidate, caps=now.caps)
             gain = then.value - now.value
-            damping = _damping(damping, float(now.derivatives.score @ step), gain)
+            damping = _damping(damping, float(now.derivatives(free).score @ step), gain)
             if gain > 0:
                 moved = then
                 break
@@ -117,8 +117,9 @@ def promise(now: Evaluation, runs: range, *, noise: bool = False) -> float:
     model = now.model
     free = free_parameters(model, {"runs": runs, "noise": noise})
     index = np.flatnonzero(free)
-    information = now.derivatives.information[np.ix_(index, index)]
-    score, reach = now.derivatives.score[index], now.derivatives.reach[index].copy()
+    found = now.derivatives(free)
+    information = found.information[np.ix_(index, index)]
+    score, reach = found.score[index], found.reach[index].copy()
     reach[index == len(free) - 2] = model.sigma  # what a unit of its logarithm adds to the noise
     step = np.linalg.solve(information + np.diag(_floor(information, reach, model.sigma)), score)
     farthest = float(np.abs(step * reach).max(initial=0.0)) / (TRUST * model.sigma)

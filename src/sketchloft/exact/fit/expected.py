@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from sketchloft.cloud import Floats
+from sketchloft.exact.fit.motion import Bools
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.gauss import gauss
 from sketchloft.stack import Run
@@ -75,28 +76,34 @@ def expected_points(model: ExactModel, nodes: list[WallNodes]) -> float:
     return mass if mass > 0 else np.inf
 
 
-def expected_slope(model: ExactModel, nodes: list[WallNodes], *, caps: bool) -> Floats:
-    """Derivatives of the expected number of points by walls and breaks.
+def expected_slope(model: ExactModel, nodes: list[WallNodes], free: Bools, *, caps: bool) -> Floats:
+    """Derivatives of the expected number of points by the walls and breaks that are free; 0 by others.
 
     Parameters
     ----------
     model : ExactModel
     nodes : list of WallNodes
         Of this model.
+    free : (p,) bool array
+        Of all parameters.
     caps : bool
         Whether the first and last break count.
     """
     walls, breaks = model.size, model.stack.breaks
     slope = np.zeros(walls + len(breaks))
     for node in nodes:
+        slot, ends = model.slots[node.run][node.wall], slice(walls + node.run, walls + node.run + 2)
+        if not (free[slot].any() or free[ends].any()):
+            continue
         at, weight = node.spread.points, node.spread.areas * model.density.at(node.spread.points)
         foot = model.stack.runs[node.run].walls[node.wall].foot(at)
-        np.add.at(slope, model.slots[node.run][node.wall], -node.sign * weight @ foot.gradient)
+        if free[slot].any():
+            np.add.at(slope, slot, -node.sign * weight @ foot.gradient)
         if foot.by_ends is not None:
-            slope[walls + node.run : walls + node.run + 2] -= node.sign * weight @ foot.by_ends
+            slope[ends] -= node.sign * weight @ foot.by_ends
     for j, run in enumerate(model.stack.runs):
         for k, sign in ((j, -1), (j + 1, 1)):
-            if caps or 0 < k < len(breaks) - 1:
+            if free[walls + k] and (caps or 0 < k < len(breaks) - 1):
                 slope[walls + k] += sign * section_mass(model, run, float(breaks[k]))
     return slope
 

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sketchloft.cloud import Floats, Ints
+from sketchloft.exact.fit.motion import LAST, Bools
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.stack import Run
 from sketchloft.wall.foot import WallFoot
@@ -104,7 +106,7 @@ def share_within(count: int, slabs: list[Slab]) -> Floats:
     return inside
 
 
-def slopes_of(points: Floats, model: ExactModel, slabs: list[Slab]) -> tuple[Floats, Floats]:
+def slopes_of(points: Floats, model: ExactModel, slabs: list[Slab], free: Bools) -> tuple[Floats, Floats]:
     """Derivatives of that by walls, breaks, tilt, log sigma and log stray, in this order.
 
     Parameters
@@ -114,36 +116,47 @@ def slopes_of(points: Floats, model: ExactModel, slabs: list[Slab]) -> tuple[Flo
     model : ExactModel
     slabs : list of Slab
         What the points see of this model at its noise.
+    free : (p,) bool array
+        Parameters to differentiate by.
 
     Returns
     -------
     slope : (n, p) float array
-        The last column is 0.
+        The last column is 0, and so are most of those of parameters that are not free.
     reach : (p,) float array
         Largest movement of a wall that a unit of each parameter makes.
     """
     sigma, walls, k = model.sigma, model.size, len(model.stack.breaks)
     # Each column in one piece: they are what is worked on.
-    slope, reach = np.zeros((walls + k + 4, len(points))).T, np.zeros(walls + k + 4)
+    slope, reach = np.zeros((walls + k + LAST, len(points))).T, np.zeros(walls + k + LAST)
     reach[walls:-1] = 1.0
+    tilts, blurs = bool(free[walls + k : walls + k + 2].any()), bool(free[walls + k + 2])
     for slab in slabs:
         j, near, between, part = slab.run, slab.near, slab.between, slab.section.share
-        part_slope, tilt, grown = _section_slopes(points[near], model, slab)
-        beside = slope[near]
-        for slot, values, farthest in part_slope:
+        at_ends = bool(free[walls + j : walls + j + 2].any())
+        if not (tilts or blurs or at_ends or any(free[slot].any() for slot in model.slots[j])):
+            continue
+        bells = _bells(slab.section, sigma)
+        for slot, values, farthest in _by_walls(model, slab, bells, free):
             columns = slice(slot[0], slot[-1] + 1) if (slot[1:] - slot[:-1] == 1).all() else slot
-            beside[:, columns] += between[:, None] * values
+            slope[near][:, columns] += between[:, None] * values
             reach[slot] = np.maximum(reach[slot], farthest)
+        if not (tilts or blurs or at_ends):
+            continue
         away = slab.ends - points[near, 2, None]
         bell = np.exp(-0.5 * (away / sigma) ** 2) / (sigma * np.sqrt(2 * np.pi))
         slope[near, walls + j] -= bell[:, 0] * part
         slope[near, walls + j + 1] += bell[:, 1] * part
-        # The tilt turns points by (a, b, 0): their heights rise by a y - b x.
-        fall = part * (bell[:, 0] - bell[:, 1])
-        slope[near, walls + k] += between * tilt[:, 0] + fall * points[near, 1]
-        slope[near, walls + k + 1] += between * tilt[:, 1] - fall * points[near, 0]
-        drop = -bell * np.where(np.isfinite(away), away, 0.0)
-        slope[near, walls + k + 2] += between * grown + part * (drop[:, 1] - drop[:, 0])
+        if tilts:
+            # The tilt turns points by (a, b, 0): their heights rise by a y - b x.
+            fall = part * (bell[:, 0] - bell[:, 1])
+            tilt = _by_tilt(points[near], slab.section, bells)
+            slope[near, walls + k] += between * tilt[:, 0] + fall * points[near, 1]
+            slope[near, walls + k + 1] += between * tilt[:, 1] - fall * points[near, 0]
+        if blurs:
+            drop = -bell * np.where(np.isfinite(away), away, 0.0)
+            grown = _by_noise(slab.section, bells, sigma)
+            slope[near, walls + k + 2] += between * grown + part * (drop[:, 1] - drop[:, 0])
     return slope, reach
 
 
@@ -178,27 +191,45 @@ def _section(points: Floats, run: Run, sigma: float) -> Section:
     return Section(feet, signs, depth, soft, voids, outer * voids)
 
 
-def _section_slopes(
-    points: Floats, model: ExactModel, slab: Slab
-) -> tuple[list[tuple[Ints, Floats, Floats]], Floats, Floats]:
-    """Derivatives of a section's share by each wall with their reach, by the tilt and by log sigma."""
-    sigma, j, seen = model.sigma, slab.run, slab.section
-    tilt, grown = np.zeros((len(points), 2)), np.zeros(len(points))
-    slopes: list[tuple[Ints, Floats, Floats]] = []
-    for i, (foot, sign, depth) in enumerate(zip(seen.feet, seen.signs, seen.depth, strict=True)):
+def _bells(seen: Section, sigma: float) -> list[Floats]:
+    """By how much each wall's depth changes the share (n,) of a section."""
+    bells = []
+    for i, (sign, depth) in enumerate(zip(seen.signs, seen.depth, strict=True)):
         bell = np.exp(-0.5 * (depth / sigma) ** 2) / (sigma * np.sqrt(2 * np.pi))
-        bell = bell * (seen.voids if sign > 0 else seen.share / np.maximum(seen.soft[i], 1e-12))
-        values = -sign * bell[:, None] * foot.gradient
-        near = np.abs(depth) < REACH * sigma
-        farthest = np.abs(foot.gradient[near]).max(axis=0, initial=0.2)
-        slopes.append((model.slots[j][i], values, farthest))
-        if foot.by_ends is not None:
-            ends = model.size + np.array([j, j + 1])
-            slopes.append((ends, -sign * bell[:, None] * foot.by_ends, np.ones(2)))
-        # A point turned by (a, b, 0) moves by (b z, -a z, a y - b x).
-        x, y, z = points.T
+        bells.append(bell * (seen.voids if sign > 0 else seen.share / np.maximum(seen.soft[i], 1e-12)))
+    return bells
+
+
+def _by_walls(
+    model: ExactModel, slab: Slab, bells: list[Floats], free: Bools
+) -> Iterator[tuple[Ints, Floats, Floats]]:
+    """Derivatives (n, q) of a section's share by each wall, where it is free, and their reach."""
+    j, seen = slab.run, slab.section
+    ends = model.size + np.array([j, j + 1])
+    for i, (foot, sign, depth, bell) in enumerate(zip(seen.feet, seen.signs, seen.depth, bells, strict=True)):
+        slot = model.slots[j][i]
+        if free[slot].any():
+            near = np.abs(depth) < REACH * model.sigma
+            farthest = np.abs(foot.gradient[near]).max(axis=0, initial=0.2)
+            yield slot, -sign * bell[:, None] * foot.gradient, farthest
+        if foot.by_ends is not None and free[ends].any():
+            yield ends, -sign * bell[:, None] * foot.by_ends, np.ones(2)
+
+
+def _by_tilt(points: Floats, seen: Section, bells: list[Floats]) -> Floats:
+    """Derivatives (n, 2) of a section's share: a point turned by (a, b, 0) moves by (b z, -a z, ay - bx)."""
+    tilt = np.zeros((len(points), 2))
+    x, y, z = points.T
+    for foot, sign, bell in zip(seen.feet, seen.signs, bells, strict=True):
         nx, ny, nz = foot.normal.T
         tilt[:, 0] -= sign * bell * (nz * y - ny * z)
         tilt[:, 1] -= sign * bell * (nx * z - nz * x)
+    return tilt
+
+
+def _by_noise(seen: Section, bells: list[Floats], sigma: float) -> Floats:
+    """Derivative (n,) of a section's share by log sigma."""
+    grown = np.zeros(len(seen.share))
+    for foot, sign, depth, bell in zip(seen.feet, seen.signs, seen.depth, bells, strict=True):
         grown -= bell * (depth + sign * sigma**2 * foot.curvature)
-    return slopes, tilt, grown
+    return grown

@@ -7,8 +7,7 @@ The points are a Poisson process of density ``rho(x) * inside(x) + stray``, wher
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from functools import cached_property
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +15,7 @@ from numpy.typing import NDArray
 from sketchloft.cloud import Floats, Ints
 from sketchloft.exact.fit.expected import expected_points, expected_slope, wall_nodes
 from sketchloft.exact.fit.inside import share_within, slabs_of, slopes_of
+from sketchloft.exact.fit.motion import LAST, Bools
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.soundness import sound
 
@@ -34,6 +34,8 @@ __all__ = [
 @dataclass(frozen=True)
 class Derivatives:
     """Those of the log likelihood by walls, breaks, tilt, log sigma and log stray, in this order.
+
+    They tell nothing of parameters that are not free.
 
     Parameters
     ----------
@@ -63,19 +65,24 @@ class Evaluation:
     value : float
         Minus infinity where the model is not sound: then there are no derivatives.
     derive : callable
-        Finds the derivatives, which a step that leads downwards has no use for.
+        Finds the derivatives by some parameters, which a step that leads downwards has no use for.
     """
 
     points: Floats
     model: ExactModel
     caps: bool
     value: float
-    derive: Callable[[], Derivatives]
+    derive: Callable[[Bools], Derivatives]
+    _found: dict[bytes, Derivatives] = field(default_factory=dict, repr=False)
 
-    @cached_property
-    def derivatives(self) -> Derivatives:
-        """Found once."""
-        return self.derive()
+    def derivatives(self, free: Bools | None = None) -> Derivatives:
+        """Those by the parameters that are free (p,), or by all of them; found once."""
+        if free is None:
+            free = np.ones(self.model.size + len(self.model.stack.breaks) + LAST, dtype=bool)
+        key = free.tobytes()
+        if key not in self._found:
+            self._found[key] = self.derive(free)
+        return self._found[key]
 
 
 def beside_walls(points: Floats, model: ExactModel, width: float) -> NDArray[np.bool_]:
@@ -101,12 +108,12 @@ def evaluate(points: Floats, model: ExactModel, *, caps: bool = True) -> Evaluat
     total = rho * share_within(len(points), slabs) + model.stray
     nodes = wall_nodes(model)
 
-    def derive() -> Derivatives:
-        slope, reach = slopes_of(points, model, slabs)
+    def derive(free: Bools) -> Derivatives:
+        slope, reach = slopes_of(points, model, slabs, free)
         ratio = (rho / total)[:, None] * slope
         ratio[:, -1] = model.stray / total
         score = ratio.sum(axis=0)
-        score[: model.size + len(model.stack.breaks)] -= expected_slope(model, nodes, caps=caps)
+        score[: model.size + len(model.stack.breaks)] -= expected_slope(model, nodes, free, caps=caps)
         score[-1] -= model.stray * model.space
         return Derivatives(score, ratio.T @ ratio, reach)
 
@@ -114,7 +121,7 @@ def evaluate(points: Floats, model: ExactModel, *, caps: bool = True) -> Evaluat
     return Evaluation(points, model, caps, value, derive)
 
 
-def _none() -> Derivatives:
+def _none(_: Bools) -> Derivatives:
     raise ValueError("a model that is not sound has no likelihood, and no derivatives of it")
 
 

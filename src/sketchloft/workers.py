@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 import contextlib
-import importlib
 import itertools
-import multiprocessing
 import os
-import signal
 import threading
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, Any, Generic, ParamSpec, TypeVar
+from typing import Any, Generic, ParamSpec, TypeVar
 
-if TYPE_CHECKING:
-    from multiprocessing.connection import Connection
+from sketchloft.worker_process import WorkerProcess
 
 __all__ = ["ALONE", "Job", "Workers", "hire"]
 
@@ -29,77 +25,28 @@ MOST = 3
 class Job(Generic[T]):
     """A piece of work that a worker is at, or that is done here once its result is wanted."""
 
-    def __init__(self, work: Callable[[], T]) -> None:
+    def __init__(self, work: Callable[[], T], workers: Workers) -> None:
         self.work = work
-        self.worker: _Worker | None = None
+        self.begun = False
+        self.elsewhere = False
+        """Whether a worker has it, or has had it."""
         self.found: tuple[T, bool] | None = None
-        """The result, and whether the worker that sent it found one."""
-
-    @property
-    def elsewhere(self) -> bool:
-        """Whether a worker has it."""
-        return self.worker is not None
-
-    @property
-    def waits(self) -> bool:
-        """Whether there is a result still to come."""
-        return self.worker is not None and self.found is None and not self.worker.done()
-
-    def do(self) -> None:
-        """Do the work here and now."""
-        self.found = self.work(), True
+        """The result, and whether there is one: what is raised elsewhere is raised here once more."""
+        self._workers = workers
 
     def result(self) -> T:
         """Wait for the result; what the work raises is raised here."""
-        if self.worker is not None and self.found is None:
-            self.worker.wait()
+        self._workers.finish([self])
         if self.found is not None and self.found[1]:
             return self.found[0]
         return self.work()
 
 
-class _Worker:
-    """A process that does one job at a time."""
-
-    def __init__(self, modules: Sequence[str]) -> None:
-        context = multiprocessing.get_context("spawn")
-        self._here, there = context.Pipe()
-        self._process = context.Process(target=_work, args=(there, modules), daemon=True)
-        with _interrupts_ignored():
-            self._process.start()
-        there.close()
-        self._job: Job[Any] | None = None
-
-    def done(self) -> bool:
-        """Whether there is nothing to wait for."""
-        if self._job is not None and self._here.poll():
-            self.wait()
-        return self._job is None
-
-    def free(self) -> bool:
-        """Whether work would be begun at once."""
-        return self.done() and self._process.is_alive()
-
-    def begin(self, job: Job[Any]) -> None:
-        self._here.send(job.work)
-        self._job, job.worker = job, self
-
-    def wait(self) -> None:
-        """Wait for what the job has come to; that of a worker that was killed has no result."""
-        job, self._job = self._job, None
-        if job is not None:
-            try:
-                job.found = self._here.recv()
-            except (EOFError, OSError):
-                job.found = None, False
-
-    def stop(self) -> None:
-        self._process.terminate()
-        self._process.join()
-
-
 class Workers:
     """Some workers, or none.
+
+    Pieces wait in a row. Each worker has a thread here that takes the first for it and waits for the result;
+    and whoever wants the result of a piece that nobody has taken does it, one at a time.
 
     Parameters
     ----------
@@ -109,7 +56,14 @@ class Workers:
     """
 
     def __init__(self, count: int, modules: Sequence[str] = ()) -> None:
-        self._workers = [_Worker(modules) for _ in range(count)]
+        self._changed = threading.Condition()
+        self._row: deque[Job[Any]] = deque()
+        self._busy_here = False
+        self._idle = count
+        self._stopped = False
+        self._processes = [WorkerProcess(modules) for _ in range(count)]
+        for process in self._processes:
+            threading.Thread(target=self._serve, args=(process,), daemon=True).start()
 
     def begin(self, function: Callable[P, T], *args: P.args, **kwargs: P.kwargs) -> Job[T]:
         """Let a worker that is free do a piece of work.
@@ -121,8 +75,8 @@ class Workers:
         *args, **kwargs : object
             That can be pickled.
         """
-        job = Job(partial(function, *args, **kwargs))
-        self._give(job)
+        job = Job(partial(function, *args, **kwargs), self)
+        self._put([job])
         return job
 
     def each(self, function: Callable[..., T], parts: Iterable[tuple[Any, ...]], **same: object) -> list[T]:
@@ -142,13 +96,33 @@ class Workers:
         list
             Results, in the order of the arguments.
         """
-        jobs = [Job(partial(function, *part, **same)) for part in parts]
-        for job in jobs:
-            if job is not jobs[-1]:  # with the last there is nothing else to do here meanwhile
-                self._give(job)
-            if not job.elsewhere:
-                job.do()
+        jobs = [Job(partial(function, *part, **same), self) for part in parts]
+        self._put(jobs)
+        self.finish(jobs)
         return [job.result() for job in jobs]
+
+    def beside(self, function: Callable[..., T], parts: Sequence[tuple[Any, ...]], **same: object) -> list[T]:
+        """Do for each of some arguments at once what gives pieces of work to these workers in its turn.
+
+        Parameters
+        ----------
+        function : callable
+            It is called here, with ``workers=`` these, and may well do what is little work itself.
+        parts : sequence of tuple
+        **same : object
+
+        Returns
+        -------
+        list
+            Results, in the order of the arguments.
+        """
+        call = partial(function, workers=self, **same)
+        if not self._processes or len(parts) < 2:
+            return [call(*part) for part in parts]
+        from concurrent.futures import ThreadPoolExecutor  # noqa: PLC0415
+
+        with ThreadPoolExecutor(len(parts)) as pool:
+            return list(pool.map(lambda part: call(*part), parts))
 
     def first(
         self, function: Callable[..., T | None], parts: Iterable[tuple[Any, ...]]
@@ -167,37 +141,98 @@ class Workers:
         tuple of int and object, or None
             Which piece it is, and its result.
         """
-        jobs = (Job(partial(function, *part)) for part in parts)
+        jobs = (Job(partial(function, *part), self) for part in parts)
         ahead: deque[Job[T | None]] = deque()
         for place in itertools.count():
             job = ahead.popleft() if ahead else next(jobs, None)
             if job is None:
                 break
-            while self._free() and (other := next(jobs, None)) is not None:
-                self._give(other)
+            while self._wanting() and (other := next(jobs, None)) is not None:
+                self._put([other])
                 ahead.append(other)
-            while job.waits and (other := next(jobs, None)) is not None:
-                other.do()
+            while self._waits_for(job) and (other := next(jobs, None)) is not None:
+                self.finish([other])
                 ahead.append(other)
             found = job.result()
             if found is not None:
+                with self._changed:
+                    self._drop(ahead)
                 return place, found
         return None
 
-    def _free(self) -> _Worker | None:
-        return next((worker for worker in self._workers if worker.free()), None)
+    def finish(self, jobs: Sequence[Job[Any]]) -> None:
+        """Wait for pieces of work; those that nobody has begun are done here, one at a time."""
+        while self._processes and (job := self._next_here(jobs)) is not None:
+            try:
+                job.found = job.work(), True
+            finally:
+                with self._changed:
+                    self._busy_here = False
+                    self._changed.notify_all()
 
-    def _give(self, job: Job[Any]) -> None:
-        """Give a job to a worker that is free, if one is."""
-        worker = self._free()
-        if worker is not None:
-            with contextlib.suppress(OSError):  # it may be killed just now
-                worker.begin(job)
+    def _next_here(self, jobs: Sequence[Job[Any]]) -> Job[Any] | None:
+        """Wait until one of some pieces is to be done here; None when all have been done."""
+        with self._changed:
+            while not all(job.found for job in jobs):
+                job = next((job for job in jobs if not job.begun), None)
+                if job is not None and not self._busy_here:
+                    self._drop([job])
+                    self._busy_here = job.begun = True
+                    return job
+                self._changed.wait()
+        return None
+
+    def _put(self, jobs: Iterable[Job[Any]]) -> None:
+        """Let pieces of work wait in the row."""
+        if self._processes:
+            with self._changed:
+                self._row.extend(jobs)
+                self._changed.notify_all()
+
+    def _drop(self, jobs: Iterable[Job[Any]]) -> None:
+        """Let nobody begin some pieces that are in the row."""
+        for job in jobs:
+            if job in self._row:
+                self._row.remove(job)
+
+    def _wanting(self) -> bool:
+        """Whether a worker has nothing to do, or will have nothing in the row when it ends."""
+        return bool(self._processes) and len(self._row) <= self._idle
+
+    def _waits_for(self, job: Job[Any]) -> bool:
+        """Whether a worker is at a piece of work still."""
+        return job.elsewhere and job.found is None
+
+    def _serve(self, process: WorkerProcess) -> None:
+        """Give a worker the pieces in the row, until it ends."""
+        alive = True
+        while alive:
+            with self._changed:
+                while not self._row and not self._stopped:
+                    self._changed.wait()
+                if self._stopped:
+                    return
+                job = self._row.popleft()
+                job.begun = job.elsewhere = True
+                self._idle -= 1
+            try:
+                found = process.found(job.work)
+            except (EOFError, OSError):
+                found, alive = (None, False), False
+            except Exception:  # it cannot be sent
+                found = None, False
+            with self._changed:
+                job.found = found
+                self._idle += alive
+                self._changed.notify_all()
 
     def stop(self) -> None:
         """End them, whatever they do."""
-        for worker in self._workers:
-            worker.stop()
+        with self._changed:
+            self._stopped = True
+            self._changed.notify_all()
+        for process in self._processes:
+            process.stop()
 
 
 ALONE = Workers(0)
@@ -234,35 +269,3 @@ def _cores() -> int:
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
-
-
-def _work(orders: Connection, modules: Sequence[str]) -> None:
-    """Do what is ordered, until there is nobody to order any more."""
-    # Beside what follows: whoever sends an order waits until it is taken.
-    threading.Thread(target=_load, args=(modules,)).start()
-    with contextlib.suppress(EOFError, OSError):
-        while True:
-            work = orders.recv()
-            try:
-                found = work(), True
-            except Exception:  # whoever waits does it again, and sees what is raised
-                found = None, False
-            orders.send(found)
-
-
-def _load(modules: Sequence[str]) -> None:
-    for module in modules:
-        importlib.import_module(module)
-
-
-@contextlib.contextmanager
-def _interrupts_ignored() -> Iterator[None]:
-    """Start a process that ignores interrupts, which are for the one that started it."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before)

@@ -57,7 +57,7 @@ def ruled_start(
     if min(map(len, slabs)) < FEWEST:
         return None
     outlines: list[Outline] = []
-    for shape in workers.each(recognise_section, [(slab, together) for slab in slabs]):
+    for shape in workers.beside(recognise_section, [(slab, together) for slab in slabs]):
         if shape is None or shape.holes or len(shape.outlines) != 1:
             return None
         outlines.append(shape.outlines[0])

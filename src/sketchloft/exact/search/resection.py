@@ -44,14 +44,15 @@ def resectioned(
         Cosine of the angle between the direction then and now.
     workers : Workers, optional
     """
-    together, again = start.together, []
-    for j in range(len(model.stack.runs)):
-        if _moved(model, j, start.cuts, upright, together) and not _settled(points, model, j, together):
-            inner, ends = _between(points, model, j)
-            if len(inner) >= FEWEST:
-                run = segment_run(inner, ends, model.sigma, together, model.density, workers=workers)
-                again.append((j, run))
-    for j, run in again:
+    together = start.together
+    again = {
+        j: _between(points, model, j)
+        for j in range(len(model.stack.runs))
+        if _moved(model, j, start.cuts, upright, together) and not _settled(points, model, j, together)
+    }
+    again = {j: (inner, ends) for j, (inner, ends) in again.items() if len(inner) >= FEWEST}
+    parts = [(inner, ends, model.sigma, together, model.density) for inner, ends in again.values()]
+    for j, run in zip(again, workers.beside(segment_run, parts), strict=True):
         if run is not None and _kinds(run) != _kinds(model.stack.runs[j]):
             handicap = rarer(run.walls, model.stack.runs[j].walls)
             change = Change(with_run(model, j, run), range(j, j + 1), handicap, free=True)

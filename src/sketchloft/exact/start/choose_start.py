@@ -120,14 +120,12 @@ def _blurred_contenders(
     candidates = first.candidates
     contenders = _unlike(candidates)[: BLURRED_CONTENDERS + 1][1:]
     ahead = [(points, candidates[k].vector, _led_by(candidates, k), params) for k in contenders]
-    rough = list(chain(*workers.each(along, ahead, rough=True)))
+    rough = list(chain(*workers.beside(along, ahead, rough=True)))
     least = max(start.value for start in (first, *rough)) - BEHIND
     likely = apart([start for start in rough if start.value > least])
     orders = [start.candidates for start in likely[:FULL] if not _round(start)]
     parts = [(points, order[0].vector, order, params) for order in orders]
-    helped = workers if len(parts) == 1 else ALONE  # one alone is done here
-    full = workers.each(along, parts, workers=helped)
-    return [*filter(_round, likely[:FULL]), *chain(*full)]
+    return [*filter(_round, likely[:FULL]), *chain(*workers.beside(along, parts))]
 
 
 def along(

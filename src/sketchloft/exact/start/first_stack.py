@@ -40,16 +40,18 @@ def first_stack(
     no segment has a section. A rough one knows few kinds of sections.
     """
     turn = _turn(points, together)
-    runs: list[Run] = []
-    breaks: list[float] = []
-    last = float(cuts[0])
+    segments, parts = [], []
     for low, high in itertools.pairwise(cuts.tolist()):
         margin = min(blur, (high - low) / 5)
         inner = points[(points[:, 2] > low + margin) & (points[:, 2] < high - margin)]
-        if high - low < blur or len(inner) < FEWEST:
-            continue
-        ends = low + margin, high - margin
-        run = segment_run(inner, ends, sigma, together, density, rough=rough, turn=turn, workers=workers)
+        if high - low >= blur and len(inner) >= FEWEST:
+            segments.append((low, high))
+            parts.append((inner, (low + margin, high - margin), sigma, together, density))
+    runs: list[Run] = []
+    breaks: list[float] = []
+    last = float(cuts[0])
+    found = workers.beside(segment_run, parts, rough=rough, turn=turn)
+    for (low, high), run in zip(segments, found, strict=True):
         if run is not None:
             runs.append(run)
             breaks.append((low + last) / 2)

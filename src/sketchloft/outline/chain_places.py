@@ -2,31 +2,56 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from sketchloft.cloud import Floats, Ints
 from sketchloft.outline.chain import chords, edge_place, outward
 
-__all__ = ["chain_movement", "chain_place"]
+__all__ = ["EdgesAt", "chain_movement", "edges_at"]
 
 
-def chain_place(chain: tuple[Floats, Floats], edge: Ints, tau: Floats, order: int) -> Floats:
-    """Points (..., 2) on edges at parameters, or their first or second derivatives by the parameter."""
+@dataclass(frozen=True)
+class EdgesAt:
+    """An edge for each of some points; coordinates by rows, as vectorised arithmetic likes it.
+
+    Parameters
+    ----------
+    middle, chord, across : (2, ...) float array
+        Middle of the chord, the chord, and the chord turned outwards.
+    bulge : (...) float array or None
+        None where all are lines.
+    """
+
+    middle: Floats
+    chord: Floats
+    across: Floats
+    bulge: Floats | None
+
+    def places(self, tau: Floats) -> tuple[Floats, Floats, Floats]:
+        """Points (2, ...) at parameters (...), and their first and second derivatives by these."""
+        if self.bulge is None:
+            at = self.middle + tau / 2 * self.chord
+            return at, np.broadcast_to(self.chord / 2, at.shape), np.zeros(at.shape)
+        square, turned = self.bulge * self.bulge, self.bulge * tau
+        flat = turned * turned
+        rate, more = 1 + flat, 1 + square
+        xi, eta = more * tau / (2 * rate), self.bulge * (1 - tau * tau) / (2 * rate)
+        once, twice = more / (rate * rate), more / (rate * rate * rate)
+        slope = once * (1 - flat) / 2, -once * turned
+        bend = twice * square * tau * (flat - 3), -twice * self.bulge * (1 - 3 * flat)
+        first, second = (x * self.chord + y * self.across for x, y in (slope, bend))
+        return self.middle + xi * self.chord + eta * self.across, first, second
+
+
+def edges_at(chain: tuple[Floats, Floats], edge: Ints) -> EdgesAt:
+    """The edges (...) of a chain."""
     vertices, bulges = chain
-    chord, bulge = chords(vertices)[edge], bulges[edge]
-    square = bulge * bulge
-    rate = 1 + square * tau * tau
-    if order == 0:
-        xi, eta = edge_place(tau, bulge)
-    elif order == 1:
-        scale = (1 + square) / rate**2
-        xi, eta = scale * (1 - square * tau * tau) / 2, -scale * bulge * tau
-    else:
-        scale = (1 + square) / rate**3
-        xi = scale * square * tau * (square * tau * tau - 3)
-        eta = -scale * bulge * (1 - 3 * square * tau * tau)
-    moved = xi[..., None] * chord + eta[..., None] * outward(chord)
-    return moved if order else vertices[edge] + chord / 2 + moved
+    along = chords(vertices)
+    middle, chord = ((vertices + along / 2).T[:, edge], along.T[:, edge])
+    across = outward(along).T[:, edge]
+    return EdgesAt(middle, chord, across, bulges[edge] if bulges.any() else None)
 
 
 def chain_movement(chain: tuple[Floats, Floats], edge: Ints, tau: Floats, normals: Floats) -> Floats:

@@ -11,10 +11,13 @@ from sketchloft.cloud import Floats, Ints
 from sketchloft.gauss import gauss
 from sketchloft.outline.chain import outward
 from sketchloft.outline.chain_outline import ChainOutline
-from sketchloft.outline.chain_places import chain_movement, chain_place
+from sketchloft.outline.chain_places import chain_movement, edges_at
 from sketchloft.wall.foot import WallBoundary, WallFoot
 
 __all__ = ["Ruled"]
+
+Places = tuple[Floats, Floats, Floats]
+"""Points (2, n), and their first and second derivatives."""
 
 SAMPLES = np.linspace(-0.9, 0.9, 8)
 """Parameters of an edge from which the foot of a point is searched."""
@@ -49,7 +52,7 @@ class Ruled:
     @property
     def vector(self) -> Floats:
         """Parameters of both outlines."""
-        return np.r_[self.bottom.vector, self.top.vector]
+        return np.concatenate((self.bottom.vector, self.top.vector))
 
     def moved(self, vector: Floats) -> Self:
         """Return the wall with other parameters."""
@@ -66,8 +69,7 @@ class Ruled:
 
     def ring(self, heights: Floats, tau: Floats, order: int = 0) -> Floats:
         """Points (h, m, k, 2) of all m edges at heights (h,) and parameters (k,), or derivatives by these."""
-        edge = np.arange(len(self.bottom.chain()[1]))[:, None]
-        below, above = (chain_place(end, edge, tau, order) for end in self._ends())
+        below, above = (np.moveaxis(_along(end, tau)[order], 0, -1) for end in self._ends())
         t = self.share(heights)[:, None, None, None]
         return (1 - t) * below + t * above
 
@@ -91,78 +93,80 @@ class Ruled:
 
     def foot(self, points: Floats) -> WallFoot:
         """Signed distance of points (n, 3), and its derivatives."""
-        t = self.share(points[:, 2])
+        x, y, z = points.T
+        xy, t = np.array([x, y]), self.share(z)
         edge, tau = self._nearest(points)
-        tau = self._closest(points, edge, tau)
+        tau = self._closest(xy, t, edge, tau)
         count = len(self.bottom.chain()[1])
         corner = np.flatnonzero(np.abs(tau) == 1.0)
-        step = np.where(tau[corner] > 0, 1, -1)
-        beside = (edge[corner] + step) % count
-        there = self._closest(points[corner], beside, -tau[corner] * SAMPLES[-1])
+        beside = (edge[corner] + np.where(tau[corner] > 0, 1, -1)) % count
+        there = self._closest(xy[:, corner], t[corner], beside, -tau[corner] * SAMPLES[-1])
         better = np.abs(there) < 1.0
         edge[corner[better]], tau[corner[better]] = beside[better], there[better]
-        at, d1, d2 = (self._place(t, edge, tau, order) for order in range(3))
-        speed = np.maximum(np.hypot(d1[:, 0], d1[:, 1]), TINY)
-        across = outward(d1) / speed[:, None]
-        gap = points[:, :2] - at
-        flat = np.hypot(gap[:, 0], gap[:, 1])
-        side = np.einsum("ij,ij->i", gap, across)
-        bend = (d1[:, 0] * d2[:, 1] - d1[:, 1] * d2[:, 0]) / speed**3
+        (below, above), (at, d1, d2) = self._places(t, edge, tau)
+        speed = np.maximum(np.hypot(*d1), TINY)
+        across = np.array([d1[1], -d1[0]]) / speed
+        gap = xy - at
+        flat = np.hypot(*gap)
+        side = gap[0] * across[0] + gap[1] * across[1]
+        bend = (d1[0] * d2[1] - d1[1] * d2[0]) / speed**3
         # At a corner the edge that a point is farther to the side of tells on which side of the wall it is.
         corner = np.flatnonzero((np.abs(tau) == 1.0) & (flat > TINY))
-        step = np.where(tau[corner] > 0, 1, -1)
-        other = outward(self._place(t[corner], (edge[corner] + step) % count, -tau[corner], 1))
-        beyond = np.einsum("ij,ij->i", gap[corner], other) / np.maximum(np.hypot(*other.T), TINY)
+        beside = (edge[corner] + np.where(tau[corner] > 0, 1, -1)) % count
+        _, (_, along, _) = self._places(t[corner], beside, -tau[corner])
+        beyond = (gap[0, corner] * along[1] - gap[1, corner] * along[0]) / np.maximum(np.hypot(*along), TINY)
         side[corner] = np.where(np.abs(beyond) > np.abs(side[corner]), beyond, side[corner])
         sign = np.where(side < 0, -1.0, 1.0)
-        across[corner] = (sign[corner] / flat[corner])[:, None] * gap[corner]
+        across[:, corner] = sign[corner] / flat[corner] * gap[:, corner]
         bend[corner] = 0.0
-        below, above = self._ends()
-        rise = (chain_place(above, edge, tau, 0) - chain_place(below, edge, tau, 0)) / (self.high - self.low)
-        slope = -np.einsum("ij,ij->i", across, rise)
+        rise = (above - below) / (self.high - self.low)
+        slope = -(across[0] * rise[0] + across[1] * rise[1])
         c = 1 / np.hypot(1.0, slope)
-        normal = np.column_stack([across, slope]) * c[:, None]
-        by_ends = -normal[:, 2:] * np.column_stack([1 - t, t])
+        normal = np.array([*across, slope]) * c
+        by_ends = (-normal[2] * np.array([1 - t, t])).T
 
         def slopes() -> Floats:
             by_end = [
-                end.by_vector((-c * part)[:, None] * chain_movement(end.chain(), edge, tau, across))
+                end.by_vector((-c * part)[:, None] * chain_movement(end.chain(), edge, tau, across.T))
                 for end, part in ((self.bottom, 1 - t), (self.top, t))
             ]
             return np.concatenate(by_end, axis=1)
 
-        return WallFoot(c * sign * flat, normal, slopes, c * bend, by_ends)
+        return WallFoot(c * sign * flat, normal.T, slopes, c * bend, by_ends)
 
     def _ends(self) -> tuple[tuple[Floats, Floats], tuple[Floats, Floats]]:
         return self.bottom.chain(), self.top.chain()
 
-    def _place(self, t: Floats, edge: Ints, tau: Floats, order: int) -> Floats:
-        """Points (n, 2) on edges at parameters, each its own share of the way up, or derivatives by these."""
-        below, above = (chain_place(end, edge, tau, order) for end in self._ends())
-        return (1 - t)[:, None] * below + t[:, None] * above
+    def _places(self, t: Floats, edge: Ints, tau: Floats) -> tuple[tuple[Floats, Floats], Places]:
+        """Points (2, n) on edges at parameters, below and above; and in between, with their derivatives."""
+        below, above = (edges_at(end, edge).places(tau) for end in self._ends())
+        return (below[0], above[0]), _blended(t, below, above)
 
-    def _closest(self, points: Floats, edge: Ints, tau: Floats) -> Floats:
-        """Parameters (n,) of the feet of points on given edges, from parameters near by."""
-        t = self.share(points[:, 2])
+    def _closest(self, xy: Floats, t: Floats, edge: Ints, tau: Floats) -> Floats:
+        """Parameters (n,) of the feet of points (2, n) on given edges, from parameters near by."""
+        bottom, top = (edges_at(end, edge) for end in self._ends())
         for _ in range(NEWTON):
-            at, d1, d2 = (self._place(t, edge, tau, order) for order in range(3))
-            gap = at - points[:, :2]
-            first, second = np.einsum("ij,ij->i", gap, d1), np.einsum("ij,ij->i", d1, d1)
-            full = second + np.einsum("ij,ij->i", gap, d2)
+            at, d1, d2 = _blended(t, bottom.places(tau), top.places(tau))
+            gap = at - xy
+            first, second = gap[0] * d1[0] + gap[1] * d1[1], d1[0] * d1[0] + d1[1] * d1[1]
+            full = second + gap[0] * d2[0] + gap[1] * d2[1]
             step = first / np.maximum(np.where(full > 0.2 * second, full, second), TINY)
             tau = np.clip(tau - np.clip(step, -0.5, 0.5), -1.0, 1.0)
         return tau
 
     def _nearest(self, points: Floats) -> tuple[Ints, Floats]:
         """Edge (n,) and parameter of the sample nearest to each point in the section at its height."""
-        below, above = (chain_place(end, np.arange(len(end[1]))[:, None], SAMPLES, 0) for end in self._ends())
-        below, above = below.reshape(-1, 2), above.reshape(-1, 2)
+        below, above = (_along(end, SAMPLES)[0].reshape(2, -1) for end in self._ends())
+        # Squares of distances, but for what all of a point have in common, as the product of two matrices.
+        squares = np.array([(below * below).sum(0), 2 * (below * above).sum(0), (above * above).sum(0)])
+        samples = np.concatenate((squares, -2 * below, -2 * above))
         best = np.empty(len(points), dtype=np.intp)
         for start in range(0, len(points), BLOCK):
-            part = points[start : start + BLOCK]
-            t = self.share(part[:, 2])[:, None]
-            x, y = ((1 - t) * below[:, axis] + t * above[:, axis] - part[:, axis, None] for axis in range(2))
-            best[start : start + BLOCK] = np.argmin(x * x + y * y, axis=1)
+            x, y, z = points[start : start + BLOCK].T
+            t = self.share(z)
+            s = 1 - t
+            rows = np.array([s * s, s * t, t * t, s * x, s * y, t * x, t * y])
+            best[start : start + BLOCK] = np.argmin(rows.T @ samples, axis=1)
         return best // len(SAMPLES), SAMPLES[best % len(SAMPLES)]
 
     def boundary(self, low: float, high: float, count: int) -> WallBoundary:
@@ -181,3 +185,14 @@ class Ruled:
         normals = np.concatenate([flat, slope[..., None]], axis=2) / steep[..., None]
         areas = weights[:, None] * speed * np.tile(share, edges) * steep
         return WallBoundary(points.reshape(-1, 3), normals.reshape(-1, 3), areas.ravel())
+
+
+def _along(chain: tuple[Floats, Floats], tau: Floats) -> Places:
+    """Points (2, m, k) of all edges at parameters (k,), and derivatives."""
+    return edges_at(chain, np.arange(len(chain[1]))[:, None]).places(tau)
+
+
+def _blended(t: Floats, below: Places, above: Places) -> Places:
+    """Places and derivatives, each its own share of the way up."""
+    at, d1, d2 = ((1 - t) * low + t * high for low, high in zip(below, above, strict=True))
+    return at, d1, d2

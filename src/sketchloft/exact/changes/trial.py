@@ -43,7 +43,8 @@ def tried(points: Floats, model: ExactModel, change: Change, together: float) ->
     count, enough = len(points), ENOUGH * together
     before, now = evaluate(near, joined(model)), evaluate(near, joined(change.model))
     least = worth_of(before, together, count) + change.handicap
-    if least - worth_of(now, together, count) > min(BEYOND * promise(now, change.around) / together, FAR):
+    lacking = least - worth_of(now, together, count)
+    if lacking > FAR or lacking > BEYOND * promise(now, change.around) / together:
         return None
     for steps in STEPS:
         now, _ = climbed(now, steps, runs=change.around, enough=enough)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Literal
@@ -16,6 +15,7 @@ from sketchloft.edge_points import EdgePoints, EdgePointsParams, edge_points
 from sketchloft.errors import ModelError, StageError, UsageError
 from sketchloft.exact.body import EXACT_MODULES, EXACT_STAGES, ExactBody, ExactParams
 from sketchloft.frame import Frame, frame_along
+from sketchloft.loading import load
 from sketchloft.loft import LoftParams, Section
 from sketchloft.shapes.choice import ShapesParams
 from sketchloft.shapes.recognise import recognise
@@ -230,8 +230,7 @@ def _parts(points: Floats, params: Params, workers: Workers) -> Sequence[tuple[I
 
     found = workers.begin(looked_over, points, params.bodies, params.exact.segments)
     # What takes a second to load does so while a worker looks at the points.
-    for module in (KERNEL, *EXACT_MODULES):
-        importlib.import_module(module)
+    load((KERNEL, *EXACT_MODULES))
     return found.result()
 
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import contextlib
-import importlib
 import multiprocessing
 import signal
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
+
+from sketchloft.loading import load
 
 if TYPE_CHECKING:
     from multiprocessing.connection import Connection
@@ -54,7 +55,7 @@ class WorkerProcess:
 def _work(orders: Connection, modules: Sequence[str]) -> None:
     """Do what is ordered, until there is nobody to order any more."""
     # Beside what follows: whoever sends an order waits until it is taken.
-    threading.Thread(target=_load, args=(modules,)).start()
+    threading.Thread(target=load, args=(modules,)).start()
     with contextlib.suppress(EOFError, OSError):
         while True:
             work = orders.recv()
@@ -63,11 +64,6 @@ def _work(orders: Connection, modules: Sequence[str]) -> None:
             except Exception:  # whoever waits does it again, and sees what is raised
                 found = None, False
             orders.send(found)
-
-
-def _load(modules: Sequence[str]) -> None:
-    for module in modules:
-        importlib.import_module(module)
 
 
 @contextlib.contextmanager

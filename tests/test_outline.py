@@ -8,7 +8,7 @@ from scipy.spatial import cKDTree
 
 from sketchloft.outline.candidates import spline_of
 from sketchloft.outline.chain import chain_area, chain_boundary
-from sketchloft.outline.chain_foot import chain_foot
+from sketchloft.outline.chain_foot import chain_foot, seen_from_within
 from sketchloft.outline.circle import Circle
 from sketchloft.outline.divided_circle import DividedCircle
 from sketchloft.outline.ellipse import Ellipse
@@ -208,9 +208,9 @@ def test_the_centres_of_round_things_have_finite_feet() -> None:
 
 def test_bulges_next_to_nothing_are_as_good_as_lines() -> None:
     points = around(200)
-    straight = chain_foot(points, ELL, np.zeros(6))
+    straight = chain_foot(points, *seen_from_within(ELL, np.zeros(6)))
     for bulge in (1e-14, -1e-9):
-        bent = chain_foot(points, ELL, np.full(6, bulge))
+        bent = chain_foot(points, *seen_from_within(ELL, np.full(6, bulge)))
         np.testing.assert_allclose(bent.distance, straight.distance, atol=1e-8)
         np.testing.assert_allclose(bent.gradient, straight.gradient, atol=1e-7)
     for low, high in ((0.02999, 0.03001), (-0.03001, -0.02999)):  # where the area goes over to its series
@@ -246,11 +246,11 @@ def test_inside_and_outside_of_any_chain(corners: list[tuple[float, float]], see
     if not LinearRing(ring).is_simple:
         return
     points = around(100, seed)
-    foot = chain_foot(points, vertices, bulges)
+    foot = chain_foot(points, *seen_from_within(vertices, bulges))
     expected = -ring_depth(points, ring)
     assert np.abs(foot.distance - expected).max() < 5e-3
     feet = points - foot.distance[:, None] * foot.normal
-    assert np.abs(chain_foot(feet, vertices, bulges).distance).max() < 1e-9
+    assert np.abs(chain_foot(feet, *seen_from_within(vertices, bulges)).distance).max() < 1e-9
 
 
 def test_a_star_is_found_from_its_corners_and_an_l_is_none() -> None:

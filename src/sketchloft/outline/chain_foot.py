@@ -10,19 +10,25 @@ from sketchloft.outline.chain import edge_normal, edge_place
 from sketchloft.outline.chain_nearest import Edges, Nearest, edge_frames, nearest
 from sketchloft.outline.outline import Foot
 
-__all__ = ["chain_foot"]
+__all__ = ["chain_foot", "seen_from_within"]
 
 
-def chain_foot(points: Floats, vertices: Floats, bulges: Floats) -> Foot:
+def seen_from_within(vertices: Floats, bulges: Floats) -> tuple[Floats, Edges]:
+    """The middle (2,) of a chain, about which differences lose nothing, and its edges about that."""
+    origin = vertices.mean(axis=0)
+    return origin, edge_frames(vertices - origin, bulges)
+
+
+def chain_foot(points: Floats, origin: Floats, edges: Edges) -> Foot:
     """What points see of a chain.
 
     Parameters
     ----------
     points : (n, 2) float array
-    vertices : (m, 2) float array
-        Counter-clockwise, m at least 2.
-    bulges : (m,) float array
-        Tangent of a quarter of the sweep of the edge from vertex k to k + 1, positive outwards.
+    origin : (2,) float array
+        Of the edges.
+    edges : Edges
+        Of the chain, counter-clockwise, 2 at least.
 
     Returns
     -------
@@ -35,8 +41,6 @@ def chain_foot(points: Floats, vertices: Floats, bulges: Floats) -> Foot:
     f = c (x**2 + y**2 - L**2 / 4) + 2 y cos(sweep / 2) vanishes, and the signed distance from it is
     f / (1 + sqrt(1 + c f)), which is y for a line.
     """
-    origin = vertices.mean(axis=0)  # about which differences lose nothing
-    edges = edge_frames(vertices - origin, bulges)
     local = points - origin
     near = nearest(local, edges)
     distance, normal, curvature, tau = _edge_foot(edges, near)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import replace
+from functools import cached_property
 from typing import Self
 
 from sketchloft.cloud import Floats
 from sketchloft.outline.chain import chain_area, chain_boundary, chain_edges
-from sketchloft.outline.chain_foot import chain_foot
+from sketchloft.outline.chain_foot import chain_foot, seen_from_within
+from sketchloft.outline.chain_nearest import Edges
 from sketchloft.outline.outline import Boundary, Edge, Foot
 
 __all__ = ["ChainOutline"]
@@ -37,17 +38,25 @@ class ChainOutline(ABC):
     @property
     def area(self) -> float:
         """Enclosed area."""
-        return abs(chain_area(*self.chain()))
+        return abs(chain_area(*self._chain))
 
     def foot(self, points: Floats) -> Foot:
         """Signed distance of points (n, 2), and its derivatives."""
-        seen = chain_foot(points, *self.chain())
-        return replace(seen, slopes=lambda: self.by_vector(seen.gradient))
+        seen = chain_foot(points, *self._edges)
+        return Foot(seen.distance, seen.normal, lambda: self.by_vector(seen.gradient), seen.curvature)
 
     def boundary(self, count: int) -> Boundary:
         """About `count` points along it, to integrate with, 2 or more on each edge."""
-        return chain_boundary(*self.chain(), count)
+        return chain_boundary(*self._chain, count)
 
     def edges(self) -> tuple[Edge, ...]:
         """Its lines and arcs, counter-clockwise."""
-        return chain_edges(*self.chain())
+        return chain_edges(*self._chain)
+
+    @cached_property
+    def _chain(self) -> tuple[Floats, Floats]:
+        return self.chain()
+
+    @cached_property
+    def _edges(self) -> tuple[Floats, Edges]:
+        return seen_from_within(*self._chain)

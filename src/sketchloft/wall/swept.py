@@ -9,7 +9,7 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.gauss import gauss
-from sketchloft.outline.outline import Outline
+from sketchloft.outline.outline import Boundary, Outline
 from sketchloft.wall.dome import dome_foot
 from sketchloft.wall.foot import WallBoundary, WallFoot
 
@@ -198,6 +198,8 @@ class Swept:
         """About `count` points on the wall between two heights."""
         z, weights = self._heights(low, high)
         ring = self.outline.boundary(max(24, count // len(z)))
+        if self.still:
+            return _straight(self.pivot + (ring.points - self.pivot), ring, z, weights)
         dz = (z - self.height)[:, None]
         scale = self.scale(z)[:, None]
         growth = self.taper * np.ones_like(scale)
@@ -232,6 +234,15 @@ class Swept:
         half = (ends[1] - ends[0]) / 2
         angle = ends.mean() + half * x
         return middle + radius * np.sin(angle), w * half * radius * np.cos(angle)
+
+
+def _straight(rim: Floats, ring: Boundary, z: Floats, weights: Floats) -> WallBoundary:
+    """Points on a wall straight above a ring, at heights with weights."""
+    shape = len(z), len(rim), 3
+    points, normals = np.empty(shape), np.zeros(shape)
+    points[..., :2], points[..., 2], normals[..., :2] = rim, z[:, None], ring.normals
+    areas = weights[:, None] * ring.lengths
+    return WallBoundary(points.reshape(-1, 3), normals.reshape(-1, 3), areas.ravel())
 
 
 def _turned(vectors: Floats, cos: Floats, sin: Floats) -> Floats:

@@ -156,6 +156,9 @@ def _profile_foot(
 ) -> tuple[Floats, Floats, Floats, Callable[[], list[Floats]], Floats]:
     """Signed distance in the half plane, its gradient by r, by z and by the parameters, and the bend."""
     match profile:
+        case LineProfile(_, radius, None):
+            one, none = np.ones(len(r)), np.zeros(len(r))
+            return r - radius, one, none, lambda: [-one], none
         case LineProfile(height, radius, slope):
             g = slope or 0.0
             c = 1 / np.hypot(1.0, g)
@@ -163,7 +166,7 @@ def _profile_foot(
             one = np.ones(len(r))
 
             def by_line() -> list[Floats]:
-                return [-c * one] if slope is None else [-c * one, -c * (z - height) - s * g * c**2]
+                return [-c * one, -c * (z - height) - s * g * c**2]
 
             return s, c * one, -g * c * one, by_line, 0 * one
         case ArcProfile(height, offset, radius, side):

@@ -9,7 +9,7 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.exact.fit.fit_density import FEWEST
-from sketchloft.exact.fit.likelihood import Derivatives, Evaluation, evaluate
+from sketchloft.exact.fit.likelihood import Derivatives, Evaluation, evaluate, evaluated, rising
 from sketchloft.exact.fit.motion import LAST, Bools, Motion, free_parameters
 from sketchloft.exact.fit.tilt import tilted
 from sketchloft.exact.model.exact_model import ExactModel
@@ -86,8 +86,8 @@ def climbed(now: Evaluation, steps: int, **motion: Unpack[Motion]) -> tuple[Eval
             candidate, rotation = _moved(
                 now.model, step, (motion.get("least", LEAST), motion.get("most", np.inf))
             )
-            turned = now.points @ rotation if motion.get("tilt") else now.points
-            then = evaluate(turned, candidate, caps=now.caps)
+            turned = rising(now.points @ rotation) if motion.get("tilt") else now.points
+            then = evaluated(turned, candidate, caps=now.caps)
             gain = then.value - now.value
             damping = _damping(damping, float(now.derivatives(free).score @ step), gain)
             if gain > 0:

@@ -24,6 +24,7 @@ __all__ = [
     "Evaluation",
     "beside_walls",
     "evaluate",
+    "evaluated",
     "losses",
     "rising",
     "share_of",
@@ -100,7 +101,11 @@ def evaluate(points: Floats, model: ExactModel, *, caps: bool = True) -> Evaluat
     caps : bool
         Whether the first and last break are walls. Without, all points must lie between them.
     """
-    points = rising(points)
+    return evaluated(rising(points), model, caps=caps)
+
+
+def evaluated(points: Floats, model: ExactModel, *, caps: bool) -> Evaluation:
+    """Evaluate, as `evaluate`, what is known to be `rising`."""
     if not sound(model):
         return Evaluation(points, model, caps, -np.inf, _none)
     slabs = slabs_of(points, model, model.sigma, caps=caps)

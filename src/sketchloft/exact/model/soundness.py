@@ -35,8 +35,10 @@ LEFT = 0.02
 ROOM = 0.49
 """Largest fillet, in shares of a prism's edges."""
 AROUND = 32
-LEVELS = 17
-"""Heights of a run at which its sections are looked at."""
+LEVELS = np.arange(17) / 16
+"""Shares of a run's height at which its sections are looked at."""
+INNER = slice(5, -5)
+"""Which of these are the ones away from its ends."""
 
 
 def sound(model: ExactModel) -> bool:
@@ -47,13 +49,13 @@ def sound(model: ExactModel) -> bool:
     for j, run in enumerate(model.stack.runs):
         if not all(covers(wall, breaks[j], breaks[j + 1]) and _closes(wall) for wall in run.walls):
             return False
-        ends = np.linspace(breaks[j], breaks[j + 1], LEVELS)
-        at = ends[LEVELS // 3 : -(LEVELS // 3)]  # a sphere may end before its break does
+        ends = breaks[j] + (breaks[j + 1] - breaks[j]) * LEVELS
+        at = ends[INNER]  # a sphere may end before its break does
         if run.holes and (run.area(at) < LEFT * sum(_outer(run, at))).any():
             return False
         if len(run.walls) > 1 and not all(_apart(run, height) for height in (at[0], at[-1])):
             return False
-        if any((wall.area(at) <= 0).any() or not _simple(wall, ends[:: LEVELS // 8]) for wall in run.walls):
+        if any((wall.area(at) <= 0).any() or not _simple(wall, ends[::2]) for wall in run.walls):
             return False
     return True
 
@@ -133,7 +135,7 @@ def covers(wall: Wall, low: float, high: float) -> bool:
     if isinstance(wall, Revolved):
         if wall.kind != "sphere":  # which may end before its run does
             ends = ends_of(wall.profile)
-        if wall.kind == "spline revolve" and not (wall.area(np.linspace(low, high, LEVELS)) > 0).all():
+        if wall.kind == "spline revolve" and not (wall.area(low + (high - low) * LEVELS) > 0).all():
             return False
     if isinstance(wall, Filleted):
         return _fits(wall.between(low, high))

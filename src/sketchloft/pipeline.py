@@ -200,7 +200,7 @@ def reconstruct(
     progress("input")
     cleaned = clean(cloud)
     progress("bodies")
-    parts = _parts(cleaned.points, params, workers)
+    parts = _parts(cleaned.points, params, progress, workers)
     if params.plan is not None:
         from sketchloft.exact.planned import check_bodies  # noqa: PLC0415  as below
 
@@ -222,13 +222,16 @@ def reconstruct(
     return Reconstruction(cleaned, params, tuple(bodies))
 
 
-def _parts(points: Floats, params: Params, workers: Workers) -> Sequence[tuple[Ints, FirstLook | None]]:
+def _parts(
+    points: Floats, params: Params, progress: Progress, workers: Workers
+) -> Sequence[tuple[Ints, FirstLook | None]]:
     """Which points each body has and, where its direction is to be found, a first look at it."""
     if params.method == "paper" or params.plan is not None or params.direction.axis != "auto":
         return [(part, None) for part in separate_bodies(points, params.bodies)]
     from sketchloft.exact.start.first_look import looked_over  # noqa: PLC0415  as below
 
     found = workers.begin(looked_over, points, params.bodies, params.exact.segments)
+    progress("direction")
     # What takes a second to load does so while a worker looks at the points.
     load((KERNEL, *EXACT_MODULES))
     return found.result()

@@ -53,7 +53,8 @@ def exact_body(
     ModelError
         If the solid fails a check.
     """
-    progress("direction")
+    if look is None:
+        progress("direction")
     middle, scale = middle_and_size(points)
     unit = (points - middle) / scale
     if axis == "auto":

@@ -74,7 +74,7 @@ class Evaluation:
     caps: bool
     value: float
     derive: Callable[[Bools], Derivatives]
-    _found: dict[bytes, Derivatives] = field(default_factory=dict, repr=False)
+    _found: dict[bytes, Derivatives] = field(default_factory=dict, init=False, repr=False)
 
     def derivatives(self, free: Bools | None = None) -> Derivatives:
         """Those by the parameters that are free (p,), or by all of them; found once."""

@@ -54,8 +54,8 @@ class WorkerProcess:
 
 def _work(orders: Connection, modules: Sequence[str]) -> None:
     """Do what is ordered, until there is nobody to order any more."""
-    # Beside what follows: whoever sends an order waits until it is taken.
-    threading.Thread(target=load, args=(modules,)).start()
+    with contextlib.suppress(ImportError):  # what needs it will say so
+        load(modules)
     with contextlib.suppress(EOFError, OSError):
         while True:
             work = orders.recv()

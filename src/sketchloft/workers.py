@@ -150,9 +150,8 @@ class Workers:
             while self._wanting() and (other := next(jobs, None)) is not None:
                 self._put([other])
                 ahead.append(other)
-            while self._waits_for(job) and (other := next(jobs, None)) is not None:
+            while self._waits_for(job) and (other := _not_begun(ahead, jobs)) is not None:
                 self.finish([other])
-                ahead.append(other)
             found = job.result()
             if found is not None:
                 with self._changed:
@@ -233,6 +232,14 @@ class Workers:
             self._changed.notify_all()
         for process in self._processes:
             process.stop()
+
+
+def _not_begun(ahead: deque[Job[T]], jobs: Iterator[Job[T]]) -> Job[T] | None:
+    """A piece of work that nobody has begun: one of those ahead, or else the next one, which is then, too."""
+    job = next((job for job in ahead if not job.begun), None)
+    if job is None and (job := next(jobs, None)) is not None:
+        ahead.append(job)
+    return job
 
 
 ALONE = Workers(0)

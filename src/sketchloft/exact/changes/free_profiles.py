@@ -61,12 +61,20 @@ def splined(
     while True:
         seen: list[tuple[int, int, Key]] = []
         changes = _first_changes(points, model, (start, fewest), together, (seen, failed))
-        found = workers.first(tried, ((points, model, change, together) for change in changes))
+        parts = ((points, model, change, together, chain) for change, chain in changes)
+        found = workers.first(_tried, parts)
         failed.update(key for *_, key in seen[: None if found is None else found[0]])
         if found is None:
             return model
         j, place, _ = seen[found[0]]
         model, start = _with_more_spans(points, found[1], j, place, together), j + 1
+
+
+def _tried(
+    points: Floats, model: ExactModel, change: Change, together: float, chain: range
+) -> ExactModel | None:
+    """Try a free profile for a chain that is not right as it is."""
+    return None if _right(points, model, chain, together) else tried(points, model, change, together)
 
 
 def _first_changes(
@@ -75,11 +83,11 @@ def _first_changes(
     sought: tuple[int, int],
     together: float,
     notes: tuple[list[tuple[int, int, Key]], set[Key]],
-) -> Iterator[Change]:
+) -> Iterator[tuple[Change, range]]:
     """A free profile for each chain from a run on, of so many runs or more, with few spans and with more.
 
     As they are given the run that stands for the chain, the place of the spans and the key are noted. Those
-    that failed are left out, and those for a chain that is right as it is are put among them.
+    that failed are left out.
     """
     (start, fewest), (seen, failed) = sought, notes
     for chain in _chains(model, start):
@@ -94,13 +102,10 @@ def _first_changes(
             Change(_with_spline(points, model, chain, spans), one, entry, free=True)
             for spans in (SPANS if len(chain) > 1 else [*SPANS][:1])
         )
-        fresh = [(place, change) for place, change in enumerate(changes) if change.key not in failed]
-        if fresh and _right(points, model, chain, together):
-            failed.update(change.key for _, change in fresh)
-            continue
-        for place, change in fresh:
-            seen.append((chain.start, place, change.key))
-            yield change
+        for place, change in enumerate(changes):
+            if change.key not in failed:
+                seen.append((chain.start, place, change.key))
+                yield change, chain
 
 
 def _chains(model: ExactModel, start: int) -> Iterator[range]:

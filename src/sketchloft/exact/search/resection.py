@@ -45,12 +45,10 @@ def resectioned(
     workers : Workers, optional
     """
     together = start.together
-    again = {
-        j: _between(points, model, j)
-        for j in range(len(model.stack.runs))
-        if _moved(model, j, start.cuts, upright, together) and not _settled(points, model, j, together)
-    }
-    again = {j: (inner, ends) for j, (inner, ends) in again.items() if len(inner) >= FEWEST}
+    moved = [j for j in range(len(model.stack.runs)) if _moved(model, j, start.cuts, upright, together)]
+    settled = workers.each(_settled, [(points, model, j, together) for j in moved])
+    among = {j: _between(points, model, j) for j, done in zip(moved, settled, strict=True) if not done}
+    again = {j: (inner, ends) for j, (inner, ends) in among.items() if len(inner) >= FEWEST}
     parts = [(inner, ends, model.sigma, together, model.density) for inner, ends in again.values()]
     for j, run in zip(again, workers.beside(segment_run, parts), strict=True):
         if run is not None and _kinds(run) != _kinds(model.stack.runs[j]):

@@ -34,6 +34,11 @@ class Job(Generic[T]):
         """The result, and whether there is one: what is raised elsewhere is raised here once more."""
         self._workers = workers
 
+    @property
+    def waits(self) -> bool:
+        """Whether a worker is at it still."""
+        return self.elsewhere and self.found is None
+
     def result(self) -> T:
         """Wait for the result; what the work raises is raised here."""
         self._workers.finish([self])
@@ -150,7 +155,7 @@ class Workers:
             while self._wanting() and (other := next(jobs, None)) is not None:
                 self._put([other])
                 ahead.append(other)
-            while self._waits_for(job) and (other := _not_begun(ahead, jobs)) is not None:
+            while job.waits and (other := _not_begun(ahead, jobs)) is not None:
                 self.finish([other])
             found = job.result()
             if found is not None:
@@ -197,10 +202,6 @@ class Workers:
     def _wanting(self) -> bool:
         """Whether a worker has nothing to do, or will have nothing in the row when it ends."""
         return bool(self._processes) and len(self._row) <= self._idle
-
-    def _waits_for(self, job: Job[Any]) -> bool:
-        """Whether a worker is at a piece of work still."""
-        return job.elsewhere and job.found is None
 
     def _serve(self, process: WorkerProcess) -> None:
         """Give a worker the pieces in the row, until it ends."""

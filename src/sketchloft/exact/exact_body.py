@@ -55,13 +55,14 @@ def exact_body(
     """
     if look is None:
         progress("direction")
-    middle, scale = middle_and_size(points)
-    unit = (points - middle) / scale
     if axis == "auto":
-        look = look or first_look(unit, params.segments)
-        vector, candidates, seen = look.candidates[0].vector, look.candidates, look.seen
+        look = look or first_look(points, params.segments)
+        middle, scale, candidates, seen = look.middle, look.scale, look.candidates, look.seen
+        vector = candidates[0].vector
     else:
+        middle, scale = middle_and_size(points)
         vector, candidates, seen = np.asarray(axis, dtype=float), (), None
+    unit = (points - middle) / scale
     from sketchloft.brep.build_stack import built_stack  # noqa: PLC0415  the kernel takes most of a second
 
     refused: list[ModelError] = []

@@ -37,7 +37,7 @@ class EdgesAt:
         square, turned = self.bulge * self.bulge, self.bulge * tau
         flat = turned * turned
         rate, more = 1 + flat, 1 + square
-        xi, eta = more * tau / (2 * rate), self.bulge * (1 - tau * tau) / (2 * rate)
+        xi, eta = edge_place(tau, self.bulge)
         once, twice = more / (rate * rate), more / (rate * rate * rate)
         slope = once * (1 - flat) / 2, -once * turned
         bend = twice * square * tau * (flat - 3), -twice * self.bulge * (1 - 3 * flat)
@@ -49,8 +49,7 @@ def edges_at(chain: tuple[Floats, Floats], edge: Ints) -> EdgesAt:
     """The edges (...) of a chain."""
     vertices, bulges = chain
     along = chords(vertices)
-    middle, chord = ((vertices + along / 2).T[:, edge], along.T[:, edge])
-    across = outward(along).T[:, edge]
+    middle, chord, across = (rows.T[:, edge] for rows in (vertices + along / 2, along, outward(along)))
     return EdgesAt(middle, chord, across, bulges[edge] if bulges.any() else None)
 
 

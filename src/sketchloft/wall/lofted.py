@@ -11,7 +11,7 @@ from sketchloft.cloud import Floats, Ints
 from sketchloft.gauss import gauss
 from sketchloft.periodic_cubic import basis_at, locate, pieces
 from sketchloft.surface import basis_matrix, even_knots, local_bases
-from sketchloft.wall.foot import WallBoundary, WallFoot
+from sketchloft.wall.foot import WallBoundary, WallFoot, spread
 
 __all__ = ["Lofted", "lofted"]
 
@@ -157,11 +157,8 @@ class Lofted:
         speed = np.maximum(np.linalg.norm(d1, axis=2), 1e-12)
         flat = np.stack([d1[..., 1], -d1[..., 0]], axis=2) / speed[..., None]
         slope = -np.einsum("mkd,mkd->mk", flat, dz)
-        steep = np.hypot(1.0, slope)
-        points = np.concatenate([at, np.broadcast_to(z[:, None, None], (*at.shape[:2], 1))], axis=2)
-        normals = np.concatenate([flat, slope[..., None]], axis=2) / steep[..., None]
-        areas = weights[:, None] * speed / around * steep
-        return WallBoundary(points.reshape(-1, 3), normals.reshape(-1, 3), areas.ravel())
+        areas = weights[:, None] * speed / around * np.hypot(1.0, slope)
+        return spread(at, z, flat, slope, areas)
 
 
 def lofted(poles: Floats, knots: Floats) -> Lofted:

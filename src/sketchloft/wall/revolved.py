@@ -11,7 +11,7 @@ import numpy as np
 from sketchloft.cloud import Floats
 from sketchloft.gauss import gauss
 from sketchloft.surface import basis_matrix, spline_at
-from sketchloft.wall.foot import WallBoundary, WallFoot
+from sketchloft.wall.foot import WallBoundary, WallFoot, spread
 from sketchloft.wall.profile import ArcProfile, LineProfile, Profile, SplineProfile
 
 __all__ = ["Revolved", "radius_at", "sizes"]
@@ -81,11 +81,8 @@ class Revolved:
         r, slope = radius_at(self.profile, z)
         steep = np.hypot(1.0, slope)
         e = np.array([np.cos(angle), np.sin(angle)]).T
-        points, normals = np.empty((len(z), around, 3)), np.empty((len(z), around, 3))
-        points[..., :2], points[..., 2] = self.centre + r[:, None, None] * e, z[:, None]
-        normals[..., :2], normals[..., 2] = e / steep[:, None, None], (-slope / steep)[:, None]
-        areas = np.repeat(weights * r * steep * 2 * np.pi / around, around)
-        return WallBoundary(points.reshape(-1, 3), normals.reshape(-1, 3), areas)
+        areas = weights * r * steep * 2 * np.pi / around
+        return spread(self.centre + r[:, None, None] * e, z, e, -slope[:, None], areas[:, None])
 
 
 def radius_at(profile: Profile, heights: Floats) -> tuple[Floats, Floats]:

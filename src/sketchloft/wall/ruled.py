@@ -12,7 +12,7 @@ from sketchloft.gauss import gauss
 from sketchloft.outline.chain import outward
 from sketchloft.outline.chain_outline import ChainOutline
 from sketchloft.outline.chain_places import chain_movement, edges_at
-from sketchloft.wall.foot import WallBoundary, WallFoot
+from sketchloft.wall.foot import WallBoundary, WallFoot, spread
 
 __all__ = ["Ruled"]
 
@@ -180,11 +180,8 @@ class Ruled:
         speed = np.maximum(np.hypot(d1[..., 0], d1[..., 1]), TINY)
         flat = outward(d1) / speed[..., None]
         slope = -np.einsum("mkd,kd->mk", flat, rise / (self.high - self.low))
-        steep = np.hypot(1.0, slope)
-        points = np.concatenate([at, np.broadcast_to(z[:, None, None], (*at.shape[:2], 1))], axis=2)
-        normals = np.concatenate([flat, slope[..., None]], axis=2) / steep[..., None]
-        areas = weights[:, None] * speed * np.tile(share, edges) * steep
-        return WallBoundary(points.reshape(-1, 3), normals.reshape(-1, 3), areas.ravel())
+        areas = weights[:, None] * speed * np.tile(share, edges) * np.hypot(1.0, slope)
+        return spread(at, z, flat, slope, areas)
 
 
 def _along(chain: tuple[Floats, Floats], tau: Floats) -> Places:

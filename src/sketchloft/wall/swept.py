@@ -9,9 +9,9 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.gauss import gauss
-from sketchloft.outline.outline import Boundary, Outline
+from sketchloft.outline.outline import Outline
 from sketchloft.wall.dome import dome_foot
-from sketchloft.wall.foot import WallBoundary, WallFoot
+from sketchloft.wall.foot import WallBoundary, WallFoot, spread
 
 __all__ = ["FREEDOMS", "Freedom", "Swept"]
 
@@ -189,9 +189,7 @@ class Swept:
         """Places (m, k, 2) where points (k, 2) of the outline lie at heights (m,)."""
         dz = (heights - self.height)[:, None]
         cos, sin = np.cos(self.twist * dz), np.sin(self.twist * dz)
-        x, y = (points - self.pivot).T
-        arm = np.empty((len(heights), len(points), 2))
-        arm[..., 0], arm[..., 1] = x * cos - y * sin, x * sin + y * cos
+        arm = _turned(points - self.pivot, cos, sin)
         return self.pivot + dz[..., None] * self.drift + self.scale(heights)[:, None, None] * arm
 
     def boundary(self, low: float, high: float, count: int) -> WallBoundary:
@@ -199,7 +197,8 @@ class Swept:
         z, weights = self._heights(low, high)
         ring = self.outline.boundary(max(24, count // len(z)))
         if self.still:
-            return _straight(self.pivot + (ring.points - self.pivot), ring, z, weights)
+            rim = self.pivot + (ring.points - self.pivot)
+            return spread(rim, z, ring.normals, np.zeros((1, 1)), weights[:, None] * ring.lengths)
         dz = (z - self.height)[:, None]
         scale = self.scale(z)[:, None]
         growth = self.taper * np.ones_like(scale)
@@ -208,20 +207,15 @@ class Swept:
         cos, sin = np.cos(self.twist * dz), np.sin(self.twist * dz)
         arm = ring.points - self.pivot
         xy = self.carried(ring.points, z)
-        (across, along), flat = ring.normals.T, np.empty((*scale.shape[:1], len(arm), 2))
-        flat[..., 0], flat[..., 1] = across * cos - along * sin, across * sin + along * cos
+        flat = _turned(ring.normals, cos, sin)
         quarter = np.stack([-arm[:, 1], arm[:, 0]], axis=1)
         slope = (
             -flat @ self.drift
             - growth * np.einsum("ij,ij->i", ring.normals, arm)
             - self.twist * scale * np.einsum("ij,ij->i", ring.normals, quarter)
         )
-        steep = np.hypot(1.0, slope)
-        points, normals = np.empty((*slope.shape, 3)), np.empty((*slope.shape, 3))
-        points[..., :2], points[..., 2] = xy, z[:, None]
-        normals[..., :2], normals[..., 2] = flat / steep[..., None], slope / steep
-        areas = weights[:, None] * ring.lengths * scale * steep
-        return WallBoundary(points.reshape(-1, 3), normals.reshape(-1, 3), areas.ravel())
+        areas = weights[:, None] * ring.lengths * scale * np.hypot(1.0, slope)
+        return spread(xy, z, flat, slope, areas)
 
     def _heights(self, low: float, high: float) -> tuple[Floats, Floats]:
         """Gauss points and weights along z; on a dome in the angle of its ellipse, for its tips' sake."""
@@ -236,16 +230,9 @@ class Swept:
         return middle + radius * np.sin(angle), w * half * radius * np.cos(angle)
 
 
-def _straight(rim: Floats, ring: Boundary, z: Floats, weights: Floats) -> WallBoundary:
-    """Points on a wall straight above a ring, at heights with weights."""
-    shape = len(z), len(rim), 3
-    points, normals = np.empty(shape), np.zeros(shape)
-    points[..., :2], points[..., 2], normals[..., :2] = rim, z[:, None], ring.normals
-    areas = weights[:, None] * ring.lengths
-    return WallBoundary(points.reshape(-1, 3), normals.reshape(-1, 3), areas.ravel())
-
-
 def _turned(vectors: Floats, cos: Floats, sin: Floats) -> Floats:
-    return np.column_stack(
-        [vectors[:, 0] * cos - vectors[:, 1] * sin, vectors[:, 0] * sin + vectors[:, 1] * cos]
-    )
+    """Vectors (..., 2) turned."""
+    x, y = vectors[..., 0], vectors[..., 1]
+    turned = np.empty((*np.broadcast_shapes(x.shape, cos.shape), 2))
+    turned[..., 0], turned[..., 1] = x * cos - y * sin, x * sin + y * cos
+    return turned

@@ -25,12 +25,16 @@ class FirstLook:
 
     Parameters
     ----------
+    middle, scale : (3,) float array, float
+        Of the body, which was looked at about its middle and about 1 across.
     candidates : tuple of Candidate
         The likeliest first.
     seen : Seen
         Along the first.
     """
 
+    middle: Floats
+    scale: float
     candidates: tuple[Candidate, ...]
     seen: Seen
 
@@ -65,9 +69,8 @@ def looked_over(
 def _at_body(points: Floats, segments: SegmentsParams) -> FirstLook | None:
     if len(points) < MIN_POINTS:
         return None
-    middle, scale = middle_and_size(points)
     try:
-        return first_look((points - middle) / scale, segments)
+        return first_look(points, segments)
     except (StageError, np.linalg.LinAlgError):
         return None
 
@@ -78,17 +81,19 @@ def first_look(points: Floats, params: SegmentsParams) -> FirstLook:
     Parameters
     ----------
     points : (n, 3) float array
-        About 1 across, about their middle.
+        Of a body.
     params : SegmentsParams
 
     Notes
     -----
     They are found in the frame of the principal axes, so that they turn with the cloud.
     """
+    middle, scale = middle_and_size(points)
+    points = (points - middle) / scale
     frame = principal_frame(points)
     grid, together, kept = without_strays(sampled(in_frame(points, frame)))
     mean = kept.mean(axis=0)
     grid = replace(grid, origin=grid.origin - mean)
     found = exact_direction(kept - mean, grid, params, clump(together))
     candidates = tuple(replace(one, vector=frame.to_world(one.vector)) for one in found)
-    return FirstLook(candidates, seen_along(points, candidates[0].vector, params))
+    return FirstLook(middle, scale, candidates, seen_along(points, candidates[0].vector, params))

@@ -8,8 +8,9 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.exact.section.section_contours import PlanView
+from sketchloft.exact.section.sharpness import place_density
 
-__all__ = ["seems_to_turn", "twist_of", "untwisted"]
+__all__ = ["seems_to_turn", "sharpest_twist", "twist_of", "untwisted"]
 
 FOLDS = range(2, 8)
 MOST_TURN = 2.5
@@ -18,7 +19,12 @@ TURNS = 101
 CLEAR = 8.0
 """Standard deviations above chance that a turning moment must have."""
 GAIN = 30.0
-"""Squared deviations by which it must be above the moment that does not turn."""
+"""Squared deviations by which it must be above the moment that does not turn, and log likelihood that a turn
+must gain."""
+LOOK = 0.4
+"""Share of the largest turn at which either way is looked at."""
+STEPS = 6
+"""Further looks, by golden section and parabolas."""
 SLABS = 128
 """Stretches along the height, over which no section turns by much."""
 SEEN = 4.0
@@ -86,6 +92,39 @@ def twist_of(plan: PlanView, heights: Floats, together: float = 1.0) -> float:
         if peaks[top] > best:
             best, still, twist = float(peaks[top]), float(peaks[TURNS // 2]), float(turns[top])
     return twist if best > clear and best**2 - still**2 > GAIN * together else 0.0
+
+
+def sharpest_twist(plan: PlanView, heights: Floats, together: float = 1.0) -> float:
+    """Turn per height, in radians, at which the section is sharpest by the density of its points.
+
+    Parameters
+    ----------
+    plan : PlanView
+    heights : (n,) float array
+        Of its points, relative to the plan's.
+    together : float
+        How many of the points go together.
+
+    Returns
+    -------
+    float
+        0 where the log likelihood gains little.
+
+    Notes
+    -----
+    Strokes fill a section so unevenly that its moments turn otherwise than its outline does, by as much as
+    half. The outline is what makes points dense: their likelihood has one broad peak at its turn.
+    """
+    from scipy.optimize import minimize_scalar  # noqa: PLC0415
+
+    def blurred(twist: float) -> float:
+        return -float(np.log(place_density(untwisted(plan, heights, twist).points)).sum())
+
+    most = MOST_TURN / float(np.ptp(heights))
+    way = min((LOOK * most, -LOOK * most), key=blurred)
+    ends = (min(0.0, way / LOOK), max(0.0, way / LOOK))
+    found = minimize_scalar(blurred, bounds=ends, method="bounded", options={"maxiter": STEPS})
+    return float(found.x) if blurred(0.0) - found.fun > GAIN * together else 0.0
 
 
 def untwisted(plan: PlanView, heights: Floats, twist: float) -> PlanView:

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from sketchloft.cloud import Floats
+from sketchloft.dispersion import thinned
 from sketchloft.exact.section.level_set import LevelSet
 from sketchloft.exact.start.rule_likelihood import rule_likelihood
 from sketchloft.exact.start.segments import SegmentsParams
@@ -98,7 +99,8 @@ def exact_direction(
     for source, score in scores.items():
         found += [(REFINE[source](start, at, normals), source) for start in _peaks(sphere, score)]
     coarse = replace(params, most_bins=BINS, shortest=SHORTEST, price=PRICE)
-    judge = _Judge(points[:: len(points) // MOST_POINTS + 1], at, normals, coarse, together)
+    every = len(points) // MOST_POINTS + 1
+    judge = _Judge(points[::every], at, normals, coarse, thinned(together, every))
     candidates: list[Candidate] = []
     for vector, source in found:
         if all(abs(float(vector @ other.vector)) < SAME for other in candidates):

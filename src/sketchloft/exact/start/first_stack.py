@@ -12,7 +12,7 @@ from sketchloft.exact.model.density import Density
 from sketchloft.exact.model.exact_model import ExactModel, model_of
 from sketchloft.exact.section.section_contours import plan_view
 from sketchloft.exact.section.segment_walls import segment_run
-from sketchloft.exact.section.twist import seems_to_turn, twist_of
+from sketchloft.exact.section.twist import seems_to_turn, sharpest_twist
 from sketchloft.stack import Run, Stack
 from sketchloft.workers import ALONE, Workers
 
@@ -68,4 +68,4 @@ def _turn(points: Floats, together: float) -> float:
     in_row = clump(together)
     plan = plan_view(points, in_row)
     heights = points[:, 2] - plan.height
-    return twist_of(plan, heights, in_row) if seems_to_turn(plan, heights, in_row) else 0.0
+    return sharpest_twist(plan, heights, in_row) if seems_to_turn(plan, heights, in_row) else 0.0

@@ -14,15 +14,12 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.exact.section.section_contours import plan_view
-from sketchloft.exact.section.twist import seems_to_turn, twist_of, untwisted
+from sketchloft.exact.section.sharpness import place_density
+from sketchloft.exact.section.twist import seems_to_turn, sharpest_twist, untwisted
 from sketchloft.exact.start.segments import SegmentsParams, cut
 
 __all__ = ["rule_likelihood"]
 
-BLUR = 0.012
-"""Standard deviation that sections are blurred with, in sizes of the cloud."""
-CELLS = 1.5
-"""Cells per blur."""
 FEWEST = 40
 PER_SEGMENT = 14.0
 """Parameters of a segment's rule, as they are priced."""
@@ -43,9 +40,9 @@ def rule_likelihood(points: Floats, params: SegmentsParams, together: float) -> 
         plan = plan_view(inner, together)
         place = inner[:, 2] - plan.height
         if seems_to_turn(plan, place, together):
-            plan = untwisted(plan, place, twist_of(plan, place, together))
+            plan = untwisted(plan, place, sharpest_twist(plan, place, together))
         along = _heights(inner[:, 2], float(start), float(stop))
-        across = _places(plan.points)
+        across = place_density(plan.points)
         total += float((np.log(along) + np.log(across) - 2 * np.log(plan.scale)).sum()) + len(inner) * np.log(
             len(inner) / count
         )
@@ -60,20 +57,3 @@ def _heights(z: Floats, low: float, high: float) -> Floats:
     # Legendre polynomials: the coefficients are the means of the polynomials themselves.
     density = 0.5 + 1.5 * moments[1] * t + 2.5 * (1.5 * moments[2] - 0.5) * (1.5 * t * t - 0.5)
     return np.maximum(density, 0.05) / ((high - low) / 2)
-
-
-def _places(points: Floats) -> Floats:
-    """Blurred density (n,) of points in the plane, without each point's own share."""
-    from scipy import ndimage  # noqa: PLC0415
-
-    cell = BLUR / CELLS
-    index = np.rint((points - points.min(axis=0)) / cell).astype(int) + 5
-    shape = index.max(axis=0) + 6
-    if np.prod(shape) > 1_000_000:
-        return np.full(len(points), 1e-3)
-    flat = np.ravel_multi_index(tuple(index.T), tuple(shape))
-    counts = np.bincount(flat, minlength=int(np.prod(shape))).reshape(shape).astype(np.float64)
-    density = ndimage.gaussian_filter(counts, CELLS, truncate=3, mode="constant")
-    own = 1 / (2 * np.pi * CELLS**2)
-    seen = density.ravel()[flat] - own
-    return np.maximum(seen, 0.02) / ((len(points) - 1) * cell**2)

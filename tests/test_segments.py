@@ -10,7 +10,7 @@ from sketchloft.dispersion import clump
 from sketchloft.exact.model.density import Density
 from sketchloft.exact.section.section_contours import plan_view
 from sketchloft.exact.section.segment_walls import segment_run
-from sketchloft.exact.section.twist import seems_to_turn, twist_of, untwisted
+from sketchloft.exact.section.twist import seems_to_turn, sharpest_twist, twist_of, untwisted
 from sketchloft.exact.start.segments import SegmentsParams, segments
 from sketchloft.exact.start.start import start_along
 from sketchloft.sample import GOALS, sample_goal
@@ -128,6 +128,27 @@ def test_a_turn_shows_at_a_glance_and_only_where_there_is_one(corners: int) -> N
         points = bar(twist, corners, 3)
         plan = plan_view(points)
         assert seems_to_turn(plan, points[:, 2] - plan.height) == bool(twist)
+
+
+@pytest.mark.parametrize("twist", [1.0, -1.8])
+def test_where_a_bar_is_filled_unevenly_its_outline_tells_how_far_it_turns(twist: float) -> None:
+    """Half of its quarters are left half empty, below others than above: its moments turn otherwise."""
+    points = bar(0.0, 2)
+    crossed = points[:, 2] * (points[:, 0] - 0.05) * (points[:, 1] + 0.02) > 0
+    points = points[~crossed | (np.arange(N) % 2 == 0)] - [0.05, -0.02, 0]
+    spokes = (points[:, :2] @ [1, 1j]) * np.exp(1j * twist * points[:, 2])
+    turned = np.column_stack([spokes.real, spokes.imag, points[:, 2]])
+    plan = plan_view(turned)
+    heights = turned[:, 2] - plan.height
+    assert sharpest_twist(plan, heights) == pytest.approx(twist, abs=0.1)
+    assert abs(twist_of(plan, heights) - twist) > 0.2
+
+
+@pytest.mark.parametrize("corners", [0, 2, 4])
+def test_no_turn_makes_a_straight_or_round_bar_sharper(corners: int) -> None:
+    points = bar(0.0, corners)
+    plan = plan_view(points)
+    assert sharpest_twist(plan, points[:, 2] - plan.height) == 0
 
 
 def test_a_round_bar_has_no_twist_however_it_is_turned() -> None:

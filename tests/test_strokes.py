@@ -9,6 +9,8 @@ from scribbles import scribbled
 from sketchloft import Params, PointCloud, reconstruct
 from sketchloft.cloud import Floats
 from sketchloft.exact.body import ExactBody
+from sketchloft.exact.start.first_look import first_look
+from sketchloft.exact.start.segments import SegmentsParams
 from sketchloft.outline.divided_circle import DividedCircle
 from sketchloft.outline.fitted_loop import fitted_loop
 from sketchloft.outline.outline import Outline
@@ -86,6 +88,15 @@ def test_what_was_scribbled_is_recognised(name: str) -> None:
     wall, height = WALLS[name]
     true = Stack(np.array([0.0, height]), (Run((wall,)),))
     assert body.facts.volume == pytest.approx(stack_volume(true), rel=0.03)
+
+
+@pytest.mark.parametrize("seed", [2, 3, 6, 8])
+def test_a_twisted_scribble_shows_its_direction_at_the_first_look(seed: int) -> None:
+    """Its moments turn by half as much again, or by half, and its faces seen from the side are flat."""
+    points = points_in("twisted", seed)
+    points = points[np.random.default_rng(0).permutation(len(points))]
+    likeliest = first_look(points, SegmentsParams()).candidates[0]
+    assert abs(likeliest.vector[2]) > np.cos(np.radians(4))
 
 
 @SLOW

@@ -19,8 +19,9 @@ TURNS = 101
 CLEAR = 8.0
 """Standard deviations above chance that a turning moment must have."""
 GAIN = 30.0
-"""Squared deviations by which it must be above the moment that does not turn, and log likelihood that a turn
-must gain."""
+"""Squared deviations by which it must be above the moment that does not turn."""
+SHARPER = 60.0
+"""Log likelihood that a turn must gain by sharpness: turns of round bars gain up to 45 by chance."""
 LOOK = 0.4
 """Share of the largest turn at which either way is looked at."""
 STEPS = 6
@@ -124,7 +125,7 @@ def sharpest_twist(plan: PlanView, heights: Floats, together: float = 1.0) -> fl
     way = min((LOOK * most, -LOOK * most), key=blurred)
     ends = (min(0.0, way / LOOK), max(0.0, way / LOOK))
     found = minimize_scalar(blurred, bounds=ends, method="bounded", options={"maxiter": STEPS})
-    return float(found.x) if blurred(0.0) - found.fun > GAIN * together else 0.0
+    return float(found.x) if blurred(0.0) - found.fun > SHARPER * together else 0.0
 
 
 def untwisted(plan: PlanView, heights: Floats, twist: float) -> PlanView:

@@ -108,7 +108,12 @@ def _clear(end: Found) -> bool:
     """Whether no other direction can be expected to explain more: nothing simpler, or no sharper walls."""
     if end.start.together == 1:
         return _simple(end.model) and end.misfit <= WRONG
-    return end.model.sigma < (BLURRED if _simple(end.model) else CLEAR)
+    return end.model.sigma < (BLURRED if _stiff(end.model) else CLEAR)
+
+
+def _stiff(model: ExactModel) -> bool:
+    """Whether no wall can bend to where strokes are: seen along a wrong direction it is far from them."""
+    return _simple(model) or (len(model.stack.runs) == 1 and not _has_loft(model))
 
 
 def _simple(model: ExactModel) -> bool:

@@ -12,6 +12,7 @@ SOURCES = {
     "extrusion": "most of the wall lies along it",
     "revolution": "the normals of the wall meet an axis along it",
     "caps": "much of the wall lies across it",
+    "ball": "from a ball to what sticks out of it",
     "principal": "principal axis of the points",
 }
 """Why directions are candidates."""

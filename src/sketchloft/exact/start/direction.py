@@ -1,8 +1,9 @@
 """Exact direction: the direction along which the fewest runs explain the points, whatever it is.
 
 Extruded things have walls along the direction, or across it; revolved ones have walls whose normals meet
-the axis. Both are looked for among all directions; the principal axes join them. What decides is how
-likely the raw points are when their sections are moved along the axis (`rule_likelihood`).
+the axis. Both are looked for among all directions; the principal axes join them, and the direction from a
+ball to what sticks out of it. What decides is how likely the raw points are when their sections are moved
+along the axis (`rule_likelihood`).
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import numpy as np
 from sketchloft.cloud import Floats
 from sketchloft.dispersion import thinned
 from sketchloft.exact.section.level_set import LevelSet
+from sketchloft.exact.start.beside_ball import beside_ball
 from sketchloft.exact.start.rule_likelihood import rule_likelihood
 from sketchloft.exact.start.segments import SegmentsParams
 from sketchloft.frame import frame_along
@@ -36,6 +38,7 @@ SHORTEST = 4
 PRICE = 60.0
 SYMMETRY = 0.4
 LEANS = (0.03, 0.01)
+"""Angles in radians by which candidates are tilted."""
 SAME = 0.985
 MOST_POINTS = 4000
 REFINED = 3
@@ -55,7 +58,7 @@ class Candidate:
     likelihood : float
         Log likelihood per point (`rule_likelihood`).
     source : str
-        Why it is a candidate: "extrusion", "revolution", "caps" or "principal".
+        Why it is a candidate: "extrusion", "revolution", "caps", "ball" or "principal".
     """
 
     vector: Floats
@@ -95,7 +98,9 @@ def exact_direction(
         "revolution": _revolution(sphere, at, normals),
         "caps": _standing_out(sphere, _caps(sphere, normals)),
     }
-    found = [(axis, "principal") for axis in np.linalg.eigh(points.T @ points)[1].T]
+    beside = beside_ball(points, at)
+    found = [] if beside is None else [(beside, "ball")]
+    found += [(axis, "principal") for axis in np.linalg.eigh(points.T @ points)[1].T]
     for source, score in scores.items():
         found += [(REFINE[source](start, at, normals), source) for start in _peaks(sphere, score)]
     coarse = replace(params, most_bins=BINS, shortest=SHORTEST, price=PRICE)
@@ -142,12 +147,8 @@ class _Judge:
 def _refined(candidate: Candidate, judge: _Judge) -> Candidate:
     """Tilt a candidate, less and less, as long as it gets better."""
     for angle in LEANS:
-        frame = frame_along(candidate.vector, judge.points)
-        leans = [
-            angle * (np.cos(turn) * frame.axes[0] + np.sin(turn) * frame.axes[1])
-            for turn in np.arange(4) * np.pi / 2
-        ]
-        around = [judge(candidate.vector + lean, candidate.source) for lean in leans]
+        x, y = frame_along(candidate.vector, judge.points).axes[:2]
+        around = [judge(candidate.vector + angle * lean, candidate.source) for lean in (x, y, -x, -y)]
         candidate = max([candidate, *around], key=lambda other: other.value)
     return candidate
 

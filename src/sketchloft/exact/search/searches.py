@@ -23,6 +23,8 @@ __all__ = ["searched"]
 
 BLURRED = 0.006
 """Noise, as a share of the size, above which the walls of a cloud of strokes may be the wrong ones."""
+HOPELESS = 0.0095
+"""The same of a first stack, above which a search from it hardly ever ends well."""
 WRONG = 15.0
 """Misfit above which those of an even cloud may be."""
 
@@ -61,9 +63,10 @@ def searched(
 
     Notes
     -----
-    The first search is from the likeliest direction. Only where its end leaves something to wish for, more is
-    looked at, which takes longer: the same direction cut more finely, where strokes leave its walls a little
-    blurred; and the first stacks along other directions. Then there is a search from the best of these, and
+    The first search is from the likeliest direction, unless strokes leave the walls along it so blurred that
+    it is hardly the right one. Only where its end leaves something to wish for, more is looked at, which
+    takes longer: the same direction cut more finely, where strokes leave its walls a little blurred; and the
+    first stacks along other directions. Then there is a search from the best of these, and
     others from the next one, where the points have something against its walls or a free loft beside other
     runs hides what they have; and from the next and the sharpest, where strokes leave its walls blurred. Each
     end with a free loft is followed by one without.
@@ -72,22 +75,24 @@ def searched(
     progress("runs")
     first = start_along(points, vector, candidates, params, seen=seen, workers=workers)
     progress("evidence")
-    ends = [look(first)]
-    if first.together > 1 and ends[0].model.sigma < BLURRED and not _clear(ends[0]):
+    found = [first]
+    ends = [] if _hopeless(first) else [look(first)]
+    if ends and first.together > 1 and ends[0].model.sigma < BLURRED and not _clear(ends[0]):
         progress("runs")
-        finer = along(points, ends[0].frame.direction, candidates, params, fine=True, workers=workers)
+        found += along(points, ends[0].frame.direction, candidates, params, True, workers=workers)
         progress("evidence")
-        ends += map(look, finer)
+        ends += map(look, found[1:])
+    searched = [end.start for end in ends]
     if any(map(_clear, ends)):
         for end in sorted(ends, key=_value, reverse=True):
             yield from _with_less(end, look)
         ends = []
     progress("runs")
-    starts = apart([first, *other_starts(points, first, params, workers)])
+    starts = apart([*found, *other_starts(points, tuple(found), params, workers)])
     progress("evidence")
-    if starts[0] is not first:
+    if starts[0] not in searched:
         ends.append(look(starts[0]))
-    left = [start for start in starts[1:] if start is not first]
+    left = [start for start in starts[1:] if start not in searched]
     for start in _further(max(ends, key=_value), left) if ends else []:
         ends.append(look(start))
         left.remove(start)
@@ -102,6 +107,11 @@ def _with_less(end: Found, look: Callable[..., Found]) -> Iterator[Found]:
     yield end
     if _has_loft(end.model):
         yield look(end.start, lofts=False)
+
+
+def _hopeless(first: Start) -> bool:
+    """Whether strokes leave the walls of a first stack so blurred that others come first."""
+    return first.together > 1 and first.merged.sigma >= HOPELESS
 
 
 def _clear(end: Found) -> bool:

@@ -31,10 +31,8 @@ CONTENDERS = 2
 """Directions beside the best whose first stacks are looked at."""
 BLURRED_CONTENDERS = 4
 """The same for a cloud of strokes, by rough first stacks."""
-FULL = 2
-"""How many of these are kept, and looked at again in full where that may tell more."""
 BEHIND = 40.0
-"""Log likelihood by which a rough first stack may be behind the best one and yet be worth a full one."""
+"""Log likelihood by which a rough first stack may be behind the best one and yet be worth a search."""
 TURNED = 0.04
 """Angle in radians by which the fit of a first stack has turned that is worth another."""
 
@@ -42,7 +40,7 @@ Candidates = tuple[Candidate, ...]
 
 
 def other_starts(
-    points: Floats, first: Start, params: SegmentsParams, workers: Workers = ALONE
+    points: Floats, found: tuple[Start, ...], params: SegmentsParams, workers: Workers = ALONE
 ) -> tuple[Start, ...]:
     """Find the first stacks along other directions that explain the points about as well.
 
@@ -50,7 +48,8 @@ def other_starts(
     ----------
     points : (n, 3) float array
         As for the first.
-    first : Start
+    found : tuple of Start
+        Those along the best, as it is cut at first and, maybe, more finely.
     params : SegmentsParams
     workers : Workers, optional
 
@@ -58,46 +57,58 @@ def other_starts(
     -------
     tuple of Start
     """
-    candidates = first.candidates
-    others = _blurred_contenders if first.together > 1 else _contenders
-    starts = [first, *others(points, first, params, workers)]
+    others = _blurred_contenders if found[0].together > 1 else _contenders
+    starts = [*found, *others(points, found, params, workers)]
     best = max(starts, key=_value)
-    finer = (best, workers.begin(_finer, points, best, params)) if _wants_finer(best) else None
-    if best.settling[2, 2] < np.cos(TURNED) and not best.plain:
-        starts += along(points, best.direction, best.candidates, params, workers=workers)
-        best = max(starts, key=_value)
-    balls = (through_sphere(start) for start in sorted(starts, key=_value, reverse=True) if candidates)
+    ways = [False] * (_turned(best) or (best.rough and not _round(best))) + [True] * (
+        _blurred(best) and not best.fine
+    )
+    starts += _looks(points, best.direction, best, params, ways, workers=workers)
+    best = max(starts, key=_value)
+    balls = (through_sphere(start) for start in sorted(starts, key=_value, reverse=True) if best.candidates)
     through = next((direction for direction in balls if direction is not None), None)
     if through is not None and all(abs(float(through @ start.direction)) < BESIDE for start in starts):
-        starts += along(points, through, best.candidates, params, workers=workers)
-        best = max(starts, key=_value)
-    if finer is not None and finer[0] is best:
-        starts += finer[1].result()
-    elif _wants_finer(best):
-        starts += _finer(points, best, params, workers)
-    return tuple(starts[1:])
+        ways = [False, *[True] * _blurred(best)]
+        starts += _looks(points, through, best, params, ways, workers=workers)
+    return tuple(starts[len(found) :])
 
 
-def _wants_finer(best: Start) -> bool:
+def _turned(best: Start) -> bool:
+    """Whether the fit has turned so far that other cuts may be the right ones."""
+    return bool(best.settling[2, 2] < np.cos(TURNED)) and not best.plain
+
+
+def _blurred(best: Start) -> bool:
     """Whether strokes leave the walls so blurred that breaks may be missing."""
     return best.together > 1 and not best.plain and best.merged.sigma >= CLEAR
 
 
-def _finer(points: Floats, best: Start, params: SegmentsParams, workers: Workers = ALONE) -> list[Start]:
-    """The first stack along the same direction, its heights cut more finely."""
-    return along(points, best.frame.axes[2], best.candidates, params, fine=True, workers=workers)
+def _looks(
+    points: Floats,
+    direction: Floats,
+    best: Start,
+    params: SegmentsParams,
+    ways: list[bool],
+    *,
+    workers: Workers,
+) -> list[Start]:
+    """First stacks along a direction that is known better now, its heights cut as before or more finely."""
+    parts = [(points, direction, best.candidates, params, fine) for fine in ways]
+    return list(chain(*workers.beside(along, parts)))
 
 
-def _contenders(points: Floats, first: Start, params: SegmentsParams, workers: Workers) -> list[Start]:
+def _contenders(
+    points: Floats, found: tuple[Start, ...], params: SegmentsParams, workers: Workers
+) -> list[Start]:
     """First stacks along the directions next to the best, until one is plain."""
-    found: list[Start] = []
-    candidates = first.candidates
+    others: list[Start] = []
+    candidates = found[0].candidates
     close = [k for k in _unlike(candidates)[1:] if _close(candidates[k], candidates[0])]
     for k in close[:CONTENDERS]:
-        if max([first, *found], key=_value).plain:
+        if max([*found, *others], key=_value).plain:
             break
-        found += along(points, candidates[k].vector, _led_by(candidates, k), params, workers=workers)
-    return found
+        others += along(points, candidates[k].vector, _led_by(candidates, k), params, workers=workers)
+    return others
 
 
 def _close(candidate: Candidate, best: Candidate) -> bool:
@@ -106,26 +117,23 @@ def _close(candidate: Candidate, best: Candidate) -> bool:
 
 
 def _blurred_contenders(
-    points: Floats, first: Start, params: SegmentsParams, workers: Workers
+    points: Floats, found: tuple[Start, ...], params: SegmentsParams, workers: Workers
 ) -> list[Start]:
-    """First stacks of a cloud of strokes along other directions than the best, unless that is clear.
+    """Rough first stacks of a cloud of strokes along other directions than the best, unless that is clear.
 
     Notes
     -----
     An even cloud tells its direction by how sharp its sections are. Strokes that drift blur all of them, so
     that hardly a direction can be ruled out before its walls are fitted, however good the first may look.
     """
-    if first.merged.sigma < CLEAR:
+    if found[0].merged.sigma < CLEAR:
         return []
-    candidates = first.candidates
+    candidates = found[0].candidates
     contenders = _unlike(candidates)[: BLURRED_CONTENDERS + 1][1:]
     ahead = [(points, candidates[k].vector, _led_by(candidates, k), params) for k in contenders]
     rough = list(chain(*workers.beside(along, ahead, rough=True)))
-    least = max(start.value for start in (first, *rough)) - BEHIND
-    likely = apart([start for start in rough if start.value > least])
-    orders = [start.candidates for start in likely[:FULL] if not _round(start)]
-    parts = [(points, order[0].vector, order, params) for order in orders]
-    return [*filter(_round, likely[:FULL]), *chain(*workers.beside(along, parts))]
+    least = max(start.value for start in (*found, *rough)) - BEHIND
+    return apart([start for start in rough if start.value > least])
 
 
 def along(
@@ -133,8 +141,8 @@ def along(
     vector: Floats,
     candidates: Candidates,
     params: SegmentsParams,
-    *,
     fine: bool = False,
+    *,
     rough: bool = False,
     workers: Workers = ALONE,
 ) -> list[Start]:

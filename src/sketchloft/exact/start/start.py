@@ -55,6 +55,10 @@ class Start:
         Segment by segment, fitted, and with no more runs than it needs.
     settling : (3, 3) float array
         The rotation of the points that fitting made: it is in `sample`, not in `points`.
+    fine : bool
+        Whether heights are cut as finely as independent points would allow.
+    rough : bool
+        Whether it knows a few kinds of sections only.
     """
 
     candidates: tuple[Candidate, ...]
@@ -67,6 +71,8 @@ class Start:
     settled: ExactModel
     merged: ExactModel
     settling: Floats
+    fine: bool = False
+    rough: bool = False
 
     @property
     def direction(self) -> Floats:
@@ -145,7 +151,9 @@ def start_along(
         raise StageError("found no section that the points fill; draw more of the inside", stage="runs")
     settled, sample, settling = _settled(sampled(local), first, tilt=bool(candidates))
     lean = merged(sample, settled, together, workers)
-    return Start(candidates, frame, local, sample, cuts, together, first, settled, lean, settling)
+    return Start(
+        candidates, frame, local, sample, cuts, together, first, settled, lean, settling, fine, rough
+    )
 
 
 def plain(model: ExactModel) -> bool:

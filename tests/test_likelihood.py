@@ -12,6 +12,7 @@ from scipy.spatial.transform import Rotation
 from sketchloft.cloud import Floats
 from sketchloft.exact.fit.climb import climb
 from sketchloft.exact.fit.expected import mass_nodes, wall_nodes
+from sketchloft.exact.fit.fit_density import FEWEST
 from sketchloft.exact.fit.likelihood import beside_walls, evaluate, share_of, value_of
 from sketchloft.exact.model.density import Density
 from sketchloft.exact.model.exact_model import ExactModel, model_of, tied
@@ -238,6 +239,19 @@ def test_a_climb_ends_near_the_top(name: str) -> None:
     top, _, _ = climb(points, found, 60, noise=True, strays=True, enough=1e-9)
     assert value_of(points, off) < value_of(points, found) - 10
     assert value_of(points, top) < value_of(points, found) + 0.1
+
+
+@pytest.mark.parametrize("name", [name for name in WALLS if name != "loft"])
+def test_what_its_limit_holds_does_not_keep_the_rest_from_the_top(name: str) -> None:
+    """No strays are left to lose, and the noise may not become what it is."""
+    points, model = known(one_run(name))
+    inner = points[share_of(points, model) > 0.5]
+    push = SIGMA * np.random.default_rng(1).standard_normal(model.size)
+    off = replace(model, stray=FEWEST / model.space, sigma=0.7 * SIGMA)
+    off = off.moved(model.vector + push, BREAKS + [SIGMA, -SIGMA])
+    found, _, _ = climb(inner, off, 12, noise=True, strays=True, most=0.7 * SIGMA)
+    top, _, _ = climb(inner, replace(found, stray=off.stray), 60, enough=1e-9)
+    assert value_of(inner, top) < value_of(inner, found) + 0.1
 
 
 def test_pieces_that_overlap_and_holes_that_break_through_are_unsound() -> None:

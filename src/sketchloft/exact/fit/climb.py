@@ -80,16 +80,16 @@ def climbed(now: Evaluation, steps: int, **motion: Unpack[Motion]) -> tuple[Eval
         free = free_parameters(now.model, motion)
         if not now.caps:
             free[[now.model.size, -LAST - 1]] = False
-        moved = None
+        moved, limits = None, (motion.get("least", LEAST), motion.get("most", np.inf))
+        slopes = now.derivatives(free)
+        moving = free & ~_held(now.model, slopes.score, limits)
         for _ in range(6):
-            step = _step(now.derivatives(free), free, damping, now.model.sigma)
-            candidate, rotation = _moved(
-                now.model, step, (motion.get("least", LEAST), motion.get("most", np.inf))
-            )
+            step = _step(slopes, moving, damping, now.model.sigma)
+            candidate, rotation = _moved(now.model, step, limits)
             turned = rising(now.points @ rotation) if motion.get("tilt") else now.points
             then = evaluated(turned, candidate, caps=now.caps)
             gain = then.value - now.value
-            damping = _damping(damping, float(now.derivatives(free).score @ step), gain)
+            damping = _damping(damping, float(slopes.score @ step), gain)
             if gain > 0:
                 moved = then
                 break
@@ -137,8 +137,19 @@ def _step(now: Derivatives, free: Bools, damping: float, sigma: float) -> Floats
     limit = STRIDE * sigma / np.maximum(now.reach[index], TINY)
     for place, largest in zip((len(free) - 2, len(free) - 1), LARGEST, strict=True):
         limit[index == place] = largest
-    step[index] = np.minimum(np.maximum(raw, -limit), limit)
+    each = np.minimum(np.maximum(raw, -limit), limit)
+    together = raw * min(1.0, float((limit / np.maximum(np.abs(raw), TINY)).min(initial=1.0)))
+    # What is cut down one by one may lead elsewhere than upwards, where some move with others only.
+    step[index] = max(each, together, key=lambda way: float(now.score[index] @ way))
     return step
+
+
+def _held(model: ExactModel, score: Floats, limits: tuple[float, float]) -> Bools:
+    """Which parameters their limits keep from going where slopes lead: the noise, and the strays at least."""
+    held, (low, high) = np.zeros(len(score), dtype=bool), limits
+    held[-2] = model.sigma >= high if score[-2] > 0 else model.sigma <= low
+    held[-1] = score[-1] < 0 and model.stray * model.space <= FEWEST
+    return held
 
 
 def _floor(information: Floats, reach: Floats, sigma: float) -> Floats:

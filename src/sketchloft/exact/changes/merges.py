@@ -24,7 +24,7 @@ HEIGHTS = 25
 
 
 def merges(model: ExactModel) -> Iterator[Change]:
-    """A run left to a neighbour, or at an end to nobody, or one wall for both, the shortest first."""
+    """A run left to a neighbour, to both as one, or to nobody, or one wall for two, the shortest first."""
     runs = model.stack.runs
     count = len(runs)
     if count == 1:
@@ -38,9 +38,18 @@ def merges(model: ExactModel) -> Iterator[Change]:
                 for run in (_slanted(model, heir, j), *_through_both(model, first)):
                     if run is not None:
                         yield Change(with_runs(model, first, first + 1, run), range(first, first + 1))
+        if 0 < j < count - 1 and _alike(runs[j - 1], runs[j + 1]):
+            lengths = np.diff(model.stack.breaks)
+            heir = j - 1 if lengths[j - 1] > lengths[j + 1] else j + 1
+            yield Change(with_runs(model, j - 1, j + 1, runs[heir]), range(j - 1, j))
         if j in (0, count - 1):
             place = 0 if j == 0 else count - 2
             yield Change(without_run(model, j, None), range(place, place + 1))
+
+
+def _alike(below: Run, above: Run) -> bool:
+    """Whether two runs may be one that a third divides."""
+    return below.holes == above.holes and [w.kind for w in below.walls] == [w.kind for w in above.walls]
 
 
 def _through_both(model: ExactModel, first: int) -> Iterator[Run]:

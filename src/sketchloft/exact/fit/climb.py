@@ -138,9 +138,10 @@ def _step(now: Derivatives, free: Bools, damping: float, sigma: float) -> Floats
     for place, largest in zip((len(free) - 2, len(free) - 1), LARGEST, strict=True):
         limit[index == place] = largest
     each = np.minimum(np.maximum(raw, -limit), limit)
-    together = raw * min(1.0, float((limit / np.maximum(np.abs(raw), TINY)).min(initial=1.0)))
-    # What is cut down one by one may lead elsewhere than upwards, where some move with others only.
-    step[index] = max(each, together, key=lambda way: float(now.score[index] @ way))
+    if float(now.score[index] @ each) <= 0:
+        # What is cut down one by one leads elsewhere than upwards, where some move with others only.
+        each = raw * min(1.0, float((limit / np.maximum(np.abs(raw), TINY)).min(initial=1.0)))
+    step[index] = each
     return step
 
 

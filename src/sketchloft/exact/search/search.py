@@ -35,6 +35,9 @@ __all__ = ["Found", "search"]
 AT_LEAST = 0.004
 """Noise that the evidence is judged with at least: sharper walls would trap the search."""
 
+QUIETER = 0.75
+"""Share of the noise that a model was found with, below which the evidence is judged anew with its own."""
+
 
 @dataclass(frozen=True)
 class Found:
@@ -109,6 +112,9 @@ def search(
     again = resectioned(sample @ turn, model, start, (start.settling @ turn)[2, 2], workers)
     if again is not model:
         model = improved(sample @ turn, again, together, lofts=lofts, workers=workers)
+    quiet = _quieter(sample @ turn, model)
+    if quiet is not model:
+        model = improved(sample @ turn, quiet, together, lofts=lofts, workers=workers)
     strays = without_absorbed(sample @ turn, model, together, workers)
     points, model = start.points @ start.settling, strays.model
     if not strays.kept.all():
@@ -130,3 +136,10 @@ def search(
     left = misfit(sample @ turn, blurred, range(len(model.stack.runs)), together)
     model, turn = counted(thicker(model, every), len(start.points) - len(points)), start.settling @ turn
     return Found(start, model, start.points @ turn, turn, value, left)
+
+
+def _quieter(points: Floats, model: ExactModel) -> ExactModel:
+    """The model with the noise that suits it, where that is much less than what it was found with."""
+    near = points[beside_walls(points, model, BESIDE * model.sigma)]
+    found, _, _ = climb(near, model, 8, noise=True, least=AT_LEAST, most=model.sigma)
+    return found if found.sigma < QUIETER * model.sigma else model

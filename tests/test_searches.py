@@ -12,6 +12,7 @@ from sketchloft.exact.search import searches
 from sketchloft.exact.start import choose_start
 from sketchloft.exact.start.start import Start
 from sketchloft.sample import GOALS, FillParams, sample_goal
+from test_strokes import points_in
 
 
 @pytest.fixture
@@ -44,6 +45,20 @@ def test_a_simple_thing_is_seen_from_its_direction_at_once(
     body = _body(sample_goal(GOALS[name], 6000, params, seed=5))
     assert looks == []
     assert abs(float(body.vector @ body.frame.direction)) == pytest.approx(1, abs=1e-12)
+
+
+@pytest.mark.parametrize("seed", [1, 7])
+def test_one_run_of_stiff_walls_is_enough_of_a_scribble(seed: int, looks: list[int]) -> None:
+    body = _body(PointCloud.of(points_in("twisted", seed)))
+    assert looks == []
+    assert [wall.kind for wall in body.model.stack.walls] == ["twisted rectangle"]
+
+
+def test_a_hopeless_start_waits_for_others(monkeypatch: pytest.MonkeyPatch, looks: list[int]) -> None:
+    cloud = sample_goal(GOALS["box"], 6000, SCRIBBLED, seed=5)
+    monkeypatch.setattr(searches, "HOPELESS", 0.0)
+    assert _body(cloud).facts.faces == {"Plane": 6}
+    assert len(looks) == 1
 
 
 def test_where_a_simpler_stack_may_lie_along_another_direction_that_is_looked_for(looks: list[int]) -> None:

@@ -12,6 +12,7 @@ from sketchloft.exact.changes import free_profiles
 from sketchloft.exact.changes.change import Change, Key
 from sketchloft.exact.changes.free_profiles import splined
 from sketchloft.exact.changes.free_trial import BEYOND
+from sketchloft.exact.changes.merges import merges
 from sketchloft.exact.changes.trial import tried
 from sketchloft.exact.changes.worth import worth
 from sketchloft.exact.fit.climb import climb, promise
@@ -113,3 +114,26 @@ def test_strays_come_from_the_same_place_along_any_direction(vector: list[float]
     unit = (points - points.mean(axis=0)) / np.ptp(points, axis=0).max()
     along = [start_along(unit, np.array(v), (), SegmentsParams()) for v in ([0, 0, 1.0], vector)]
     assert along[0].first.space == pytest.approx(along[1].first.space, rel=1e-4)
+
+
+@pytest.mark.parametrize("middle", [0.2, 0.35])
+def test_a_run_between_two_alike_ones_is_tried_as_part_of_them(middle: float) -> None:
+    """Each alone left to it pays little: where a stroke has put it in the way, both are one."""
+    lower, upper = cylinder(0.301), cylinder(0.299)
+    breaks = np.array([-0.3, 0.0, 0.02, 0.3])
+    density = Density(np.array([np.log(COUNT / 0.17)]))
+    runs = (Run((lower,)), Run((cylinder(middle),)), Run((upper,)))
+    model = model_of(Stack(breaks, runs), SIGMA, density, 1.0, 1.0)
+    (bridged,) = [change for change in merges(model) if len(change.model.stack.runs) == 1]
+    points = frustum(0.0)
+    found = tried(points, model, bridged, 1)
+    assert found is not None
+    assert found.vector[2] == pytest.approx(0.3, abs=0.002)
+
+
+def test_a_run_between_two_kinds_is_not() -> None:
+    breaks = np.array([-0.3, 0.0, 0.02, 0.3])
+    density = Density(np.array([np.log(COUNT / 0.17)]))
+    runs = (Run((cylinder(),)), Run((cylinder(0.2),)), Run((cone(0.1),)))
+    model = model_of(Stack(breaks, runs), SIGMA, density, 1.0, 1.0)
+    assert all(len(change.model.stack.runs) == 2 for change in merges(model))

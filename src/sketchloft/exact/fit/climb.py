@@ -137,11 +137,10 @@ def _step(now: Derivatives, free: Bools, damping: float, sigma: float) -> Floats
     limit = STRIDE * sigma / np.maximum(now.reach[index], TINY)
     for place, largest in zip((len(free) - 2, len(free) - 1), LARGEST, strict=True):
         limit[index == place] = largest
-    each = np.minimum(np.maximum(raw, -limit), limit)
-    if float(now.score[index] @ each) <= 0:
+    step[index] = np.minimum(np.maximum(raw, -limit), limit)
+    if float(now.score @ step) <= 0:
         # What is cut down one by one leads elsewhere than upwards, where some move with others only.
-        each = raw * min(1.0, float((limit / np.maximum(np.abs(raw), TINY)).min(initial=1.0)))
-    step[index] = each
+        step[index] = raw * min(1.0, float((limit / np.maximum(np.abs(raw), TINY)).min(initial=1.0)))
     return step
 
 

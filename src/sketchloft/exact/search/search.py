@@ -34,7 +34,6 @@ __all__ = ["Found", "search"]
 
 AT_LEAST = 0.004
 """Noise that the evidence is judged with at least: sharper walls would trap the search."""
-
 QUIETER = 0.75
 """Share of the noise that a model was found with, below which the evidence is judged anew with its own."""
 
@@ -140,6 +139,8 @@ def search(
 
 def _quieter(points: Floats, model: ExactModel) -> ExactModel:
     """The model with the noise that suits it, where that is much less than what it was found with."""
+    if QUIETER * model.sigma <= AT_LEAST:
+        return model
     near = points[beside_walls(points, model, BESIDE * model.sigma)]
     found, _, _ = climb(near, model, 8, noise=True, least=AT_LEAST, most=model.sigma)
     return found if found.sigma < QUIETER * model.sigma else model

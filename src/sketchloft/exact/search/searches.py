@@ -66,10 +66,10 @@ def searched(
     The first search is from the likeliest direction, unless strokes leave the walls along it so blurred that
     it is hardly the right one. Only where its end leaves something to wish for, more is looked at, which
     takes longer: the same direction cut more finely, where strokes leave its walls a little blurred; and the
-    first stacks along other directions. Then there is a search from the best of these, and
-    others from the next one, where the points have something against its walls or a free loft beside other
-    runs hides what they have; and from the next and the sharpest, where strokes leave its walls blurred. Each
-    end with a free loft is followed by one without.
+    first stacks along other directions. Then there is a search from the best of these, and others from the
+    next one, where the points have something against its walls or a free loft beside other runs hides what
+    they have; and from the next and the sharpest, where strokes leave its walls blurred. Each end with a free
+    loft is followed by one without.
     """
     look = partial(search, tilt=bool(candidates), progress=progress, workers=workers)
     progress("runs")
@@ -82,7 +82,7 @@ def searched(
         found += along(points, ends[0].frame.direction, candidates, params, True, workers=workers)
         progress("evidence")
         ends += map(look, found[1:])
-    searched = [end.start for end in ends]
+    done = [end.start for end in ends]
     if any(map(_clear, ends)):
         for end in sorted(ends, key=_value, reverse=True):
             yield from _with_less(end, look)
@@ -90,9 +90,9 @@ def searched(
     progress("runs")
     starts = apart([*found, *other_starts(points, tuple(found), params, workers)])
     progress("evidence")
-    if starts[0] not in searched:
+    if starts[0] not in done:
         ends.append(look(starts[0]))
-    left = [start for start in starts[1:] if start not in searched]
+    left = [start for start in starts[1:] if start not in done]
     for start in _further(max(ends, key=_value), left) if ends else []:
         ends.append(look(start))
         left.remove(start)

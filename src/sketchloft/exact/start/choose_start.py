@@ -60,15 +60,14 @@ def other_starts(
     others = _blurred_contenders if found[0].together > 1 else _contenders
     starts = [*found, *others(points, found, params, workers)]
     best = max(starts, key=_value)
-    ways = [False] * (_turned(best) or (best.rough and not _round(best))) + [True] * (
-        _blurred(best) and not best.fine
-    )
+    ways = [False] if _turned(best) or (best.rough and not _round(best)) else []
+    ways += [True] if _blurred(best) and not best.fine else []
     starts += _looks(points, best.direction, best, params, ways, workers=workers)
     best = max(starts, key=_value)
     balls = (through_sphere(start) for start in sorted(starts, key=_value, reverse=True) if best.candidates)
     through = next((direction for direction in balls if direction is not None), None)
     if through is not None and all(abs(float(through @ start.direction)) < BESIDE for start in starts):
-        ways = [False, *[True] * _blurred(best)]
+        ways = [False, True] if _blurred(best) else [False]
         starts += _looks(points, through, best, params, ways, workers=workers)
     return tuple(starts[len(found) :])
 

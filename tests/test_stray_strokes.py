@@ -19,12 +19,14 @@ from sketchloft.exact.planned import planned_body
 from sketchloft.exact.search.stray_strokes import stray_strokes
 from sketchloft.plan.from_model import planned_from_model
 from sketchloft.stack import Run, Stack
-from sketchloft.wall.profile import ArcProfile
-from sketchloft.wall.revolved import Revolved
+from sketchloft.surface import even_knots
+from sketchloft.wall.profile import ArcProfile, SplineProfile
+from sketchloft.wall.revolved import Revolved, radius_at
 
 N, STRAY = 6000, 60
 BALL, KNOB = (0.0, 0.4), (0.5, 0.22)
 """Heights of the centres of two balls that are fused, and their radii."""
+RADIUS = 0.25
 SEEDS = range(4)
 
 
@@ -96,6 +98,53 @@ def test_all_points_follow_the_next_one_of_the_sample() -> None:
     strays = stray_strokes(points, fitted(points), dispersion(points))
     dense = np.repeat(points, 3, axis=0) + 1e-4
     assert (strays.among(dense, points) == np.repeat(strays.kept, 3)).all()
+
+
+def in_a_bar(seed: int) -> Floats:
+    """Strokes in a bar of radius 0.25, and one that sticks out at its upper rim."""
+
+    def inside(points: Floats) -> np.ndarray:
+        return np.asarray((np.hypot(points[:, 0], points[:, 1]) < RADIUS) & (np.abs(points[:, 2]) < RADIUS))
+
+    rest = scribbled(inside, -np.full(3, RADIUS), np.full(3, RADIUS), N, seed)
+    away = np.linspace(1.0, 1.3, STRAY) * RADIUS
+    stroke = np.column_stack([away, 0.1 * away, np.full(STRAY, RADIUS - 0.008)])
+    return np.concatenate([rest, stroke + 0.001 * np.random.default_rng(seed).normal(size=stroke.shape)])
+
+
+def bent(points: Floats) -> ExactModel:
+    """A free profile, which bends to the stroke, fitted with its noise."""
+    knots = even_knots(-1.1 * RADIUS, 1.1 * RADIUS, 11)
+    wall = Revolved(np.zeros(2), SplineProfile(knots, np.full(14, RADIUS)))
+    stack = Stack(np.array([-RADIUS, RADIUS]), (Run((wall,)),))
+    model = model_of(stack, 0.005, Density(np.array([np.log(N / (2 * np.pi * RADIUS**3))])), 10.0, 1.5)
+    for _ in range(3):
+        model, _, _ = climb(points, fit_density(points, model, 2), 20, noise=True)
+    return fit_density(points, model, 2)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_stroke_that_a_free_wall_has_bent_to_is_left_out(seed: int) -> None:
+    points = in_a_bar(seed)
+    model, together = bent(points), dispersion(points)
+    rim = np.array([RADIUS - 0.004])
+    assert radius_at(sole(model).profile, rim)[0][0] > 1.1 * RADIUS
+    strays = stray_strokes(points, model, together, sharp=True)
+    assert strays.kept[-STRAY:].mean() < 0.5
+    assert strays.kept[:-STRAY].mean() > 0.99
+    assert radius_at(sole(strays.model).profile, rim)[0][0] < 1.08 * RADIUS
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_strokes_that_a_free_wall_follows_rightly_are_kept(seed: int) -> None:
+    points = in_a_bar(seed)[:-STRAY]
+    assert stray_strokes(points, bent(points), dispersion(points), sharp=True).kept.mean() > 0.99
+
+
+def sole(model: ExactModel) -> Revolved:
+    (wall,) = model.stack.walls
+    assert isinstance(wall, Revolved)
+    return wall
 
 
 @pytest.mark.slow

@@ -79,7 +79,7 @@ class Evaluation:
     def derivatives(self, free: Bools | None = None) -> Derivatives:
         """Those by the parameters that are free (p,), or by all of them; found once."""
         if free is None:
-            free = np.ones(self.model.size + len(self.model.stack.breaks) + LAST, dtype=bool)
+            free = np.ones(_parameters(self.model), dtype=bool)
         key = free.tobytes()
         if key not in self._found:
             self._found[key] = self.derive(free)
@@ -126,6 +126,10 @@ def evaluated(points: Floats, model: ExactModel, *, caps: bool) -> Evaluation:
     return Evaluation(points, model, caps, value, derive)
 
 
+def _parameters(model: ExactModel) -> int:
+    return model.size + len(model.stack.breaks) + LAST
+
+
 def _none(_: Bools) -> Derivatives:
     raise ValueError("a model that is not sound has no likelihood, and no derivatives of it")
 
@@ -145,6 +149,19 @@ def losses(points: Floats, model: ExactModel) -> Floats:
     """(n,) what points (n, 3) cost in log likelihood beside ones that are deep inside."""
     inside = _share_inside(points, model, model.sigma)
     return -np.log(inside + model.stray / model.density.at(points))
+
+
+def scores(points: Floats, model: ExactModel) -> Floats:
+    """(n, p) what each of the points (n, 3) says of each parameter: the slopes of its log likelihood."""
+    order = _upwards(points)
+    upwards = np.asfortranarray(points[order])
+    slabs = slabs_of(upwards, model, model.sigma, caps=True)
+    rho = model.density.at(upwards)
+    total = rho * share_within(len(points), slabs) + model.stray
+    slope, _ = slopes_of(upwards, model, slabs, np.ones(_parameters(model), dtype=bool))
+    found = np.empty_like(slope)
+    found[order] = (rho / total)[:, None] * slope
+    return found
 
 
 def rising(points: Floats) -> Floats:

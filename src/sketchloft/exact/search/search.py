@@ -23,7 +23,7 @@ from sketchloft.exact.search.as_capsule import as_capsule
 from sketchloft.exact.search.coaxial import coaxial
 from sketchloft.exact.search.flush import flush
 from sketchloft.exact.search.resection import resectioned
-from sketchloft.exact.search.stray_strokes import counted
+from sketchloft.exact.search.stray_strokes import counted, stray_strokes
 from sketchloft.exact.search.upended import upended
 from sketchloft.exact.search.upright import upright
 from sketchloft.exact.start.start import BESIDE, Start
@@ -126,11 +126,16 @@ def search(
     model = thicker(model, every)
     model, points, rotation = sharpened(points @ turn, model, tilt=tilt)
     turn = turn @ rotation
+    pulling = stray_strokes(sample @ turn, thicker(model, 1 / every), together, workers, sharp=True)
+    if not pulling.kept.all():
+        points, sample = points[pulling.among(points, sample @ turn)], sample[pulling.kept]
+        model, points, rotation = sharpened(points, thicker(pulling.model, every), tilt=tilt)
+        turn = turn @ rotation
     model = merged(sample @ turn, thicker(model, 1 / every), together, workers)
     model = thicker(model, every)
     model = thicker(without_gap(model, least_noise(model, len(points))), 1 / every)
     model = flush(sample @ turn, model, together)
-    value = worth(sample @ turn, model, together, len(start.sample)) + strays.worth
+    value = worth(sample @ turn, model, together, len(start.sample)) + strays.worth + pulling.worth
     blurred = replace(model, sigma=max(model.sigma, AT_LEAST))
     left = misfit(sample @ turn, blurred, range(len(model.stack.runs)), together)
     model, turn = counted(thicker(model, every), len(start.points) - len(points)), start.settling @ turn

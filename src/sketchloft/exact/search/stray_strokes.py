@@ -12,7 +12,7 @@ from sketchloft.cloud import Floats, Ints
 from sketchloft.exact.changes.worth import worth
 from sketchloft.exact.fit.climb import climb
 from sketchloft.exact.fit.fit_density import fit_density
-from sketchloft.exact.fit.likelihood import beside_walls, losses
+from sketchloft.exact.fit.likelihood import beside_walls, losses, scores
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.soundness import sound
 from sketchloft.workers import ALONE, Workers
@@ -25,7 +25,9 @@ __all__ = ["Strays", "counted", "stray_strokes"]
 Bools = NDArray[np.bool_]
 
 ODDS = 10.0
-"""Log odds against a stroke to be a stray one."""
+"""Log odds against a stroke to be a stray one, of so many that lie beside the walls by chance."""
+PULLS = 7.0
+"""The same for the few that pull at sharp walls the most."""
 BESIDE = 3.0
 """Noise deviations from the walls from which on a stroke may be one."""
 NEAR = 8.0
@@ -40,7 +42,9 @@ COST = 2.0
 """What their points cost at least beside ones inside."""
 MOST = 0.03
 """Share of the points in stray strokes at most."""
-STEPS = 8
+STEPS = 30
+LEAST = 1e-6
+"""Information about a parameter at least, in shares of the mean."""
 
 
 @dataclass(frozen=True)
@@ -73,7 +77,9 @@ def counted(model: ExactModel, points: int) -> ExactModel:
     return replace(model, stray=model.stray + points / model.space)
 
 
-def stray_strokes(points: Floats, model: ExactModel, together: float, workers: Workers = ALONE) -> Strays:
+def stray_strokes(
+    points: Floats, model: ExactModel, together: float, workers: Workers = ALONE, *, sharp: bool = False
+) -> Strays:
     """Leave out strokes, one at a time, as long as the model of the others gains more than the odds.
 
     Parameters
@@ -84,6 +90,9 @@ def stray_strokes(points: Floats, model: ExactModel, together: float, workers: W
     together : float
         How many of the points go together; where it is one there are no strokes.
     workers : Workers, optional
+    sharp : bool
+        Whether the noise is that of the points, so that walls have bent as far as they will: then those that
+        pull at them are looked at, not those that cost most.
 
     Notes
     -----
@@ -96,16 +105,17 @@ def stray_strokes(points: Floats, model: ExactModel, together: float, workers: W
     R. D. Cook, Detection of influential observation in linear regression, Technometrics 19 (1977) 15-18.
     """
     kept, left, odds = np.ones(len(points), dtype=bool), model, 0.0
+    against = PULLS if sharp else ODDS
     while together > 1 and sound(left) and (~kept).mean() < MOST:
         inner = np.flatnonzero(kept)
         some = points[inner]
-        parts = [(some, left, row, together) for row in _suspects(some, left, together)]
+        parts = [(some, left, row, together) for row in _suspects(some, left, together, sharp=sharp)]
         tried = workers.each(_without, parts)
-        least = worth(some, fit_density(some, left, 1), together, len(some)) + ODDS
+        least = worth(some, fit_density(some, left, 1), together, len(some)) + against
         value, model, row = max(tried, key=lambda trial: trial[0], default=(-np.inf, left, inner))
         if value <= least:
             break
-        kept[inner[row]], left, odds = False, model, odds + ODDS
+        kept[inner[row]], left, odds = False, model, odds + against
     away = points[~kept]
     return Strays(kept, left, float(np.log(left.density.at(away)).sum()) / together - odds)
 
@@ -120,8 +130,8 @@ def _without(points: Floats, model: ExactModel, row: Ints, together: float) -> t
     return worth(others, after, together, len(points)) + gone, after, row
 
 
-def _suspects(points: Floats, model: ExactModel, together: float) -> list[Ints]:
-    """Rows of points beside the walls, those that cost most."""
+def _suspects(points: Floats, model: ExactModel, together: float, *, sharp: bool) -> list[Ints]:
+    """Rows of points beside the walls, those that cost or pull most."""
     from scipy.sparse import coo_array  # noqa: PLC0415
     from scipy.sparse.csgraph import connected_components  # noqa: PLC0415
     from scipy.spatial import cKDTree  # noqa: PLC0415
@@ -135,14 +145,25 @@ def _suspects(points: Floats, model: ExactModel, together: float) -> list[Ints]:
     links = coo_array((lengths, pairs.T), shape=(len(near), len(near))).tocsr()
     count, label = connected_components(links, directed=False)
     cost = np.bincount(label, losses(points[near], model), count) / together
+    first = _pulls(points, model, near, label.astype(np.intp)) if sharp else cost
     rows: list[Ints] = []
-    for k in np.argsort(-cost):
+    for k in np.argsort(-first):
         mine = np.flatnonzero(label == k)
-        if len(rows) == SUSPECTS or cost[k] < COST:
+        if len(rows) == SUSPECTS or (not sharp and cost[k] < COST):
             break
         if len(mine) < MOST * len(points) and _in_a_row(links[mine][:, mine]):
             rows.append(near[mine])
     return rows
+
+
+def _pulls(points: Floats, model: ExactModel, near: Ints, label: Ints) -> Floats:
+    """How far each labelled part of the points near moves the fit, in its own errors (Cook's distance)."""
+    found = scores(points, model)[:, : model.size]
+    information = found.T @ found
+    information += LEAST * float(np.trace(information)) / len(information) * np.eye(len(information))
+    sums = np.zeros((int(label.max(initial=-1)) + 1, model.size))
+    np.add.at(sums, label, found[near])
+    return np.asarray((sums * np.linalg.solve(information, sums.T).T).sum(axis=1))
 
 
 def _in_a_row(links: csr_array) -> bool:

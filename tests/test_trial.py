@@ -13,6 +13,7 @@ from sketchloft.exact.changes.change import Change, Key
 from sketchloft.exact.changes.free_profiles import splined
 from sketchloft.exact.changes.free_trial import BEYOND
 from sketchloft.exact.changes.merges import merges
+from sketchloft.exact.changes.run_changes import swaps
 from sketchloft.exact.changes.trial import tried
 from sketchloft.exact.changes.worth import worth
 from sketchloft.exact.fit.climb import climb, promise
@@ -23,10 +24,12 @@ from sketchloft.exact.model.joins import natural_joins
 from sketchloft.exact.model.surgery import with_wall
 from sketchloft.exact.start.segments import SegmentsParams
 from sketchloft.exact.start.start import start_along
+from sketchloft.outline.circle import Circle
 from sketchloft.sample import GOALS, FillParams, sample_goal
 from sketchloft.stack import Run, Stack, Wall
 from sketchloft.wall.profile import ArcProfile, LineProfile
 from sketchloft.wall.revolved import Revolved
+from sketchloft.wall.swept import Swept
 
 COUNT = 6000
 SIGMA = 0.005
@@ -137,3 +140,18 @@ def test_a_run_between_two_kinds_is_not() -> None:
     runs = (Run((cylinder(),)), Run((cylinder(0.2),)), Run((cone(0.1),)))
     model = model_of(Stack(breaks, runs), SIGMA, density, 1.0, 1.0)
     assert all(len(change.model.stack.runs) == 2 for change in merges(model))
+
+
+@pytest.mark.parametrize(
+    "wall",
+    [
+        Revolved(ORIGIN, ArcProfile(-1.0, -9.7, float(np.hypot(10.0, 1.0)))),
+        Swept(Circle(ORIGIN, 0.3), 0.0, np.array([0.01, 0.0]), ORIGIN, 1 / 3, 0.0, ("taper",)),
+    ],
+)
+def test_what_hardly_bulges_or_leans_is_a_cone(wall: Wall) -> None:
+    for seed in range(3):
+        points = frustum(0.1, seed)
+        model, _, _ = climb(points, model_with(wall), 20)
+        cones = [change for change in swaps(model) if change.model.stack.walls[0].kind == "cone"]
+        assert any(tried(points, model, change, 1) is not None for change in cones)

@@ -18,7 +18,7 @@ from sketchloft.intervals import cheapest_chain
 from sketchloft.outline.polygons import Polygon
 from sketchloft.outline.rectilinear import RectilinearPolygon
 from sketchloft.stack import Run, Wall
-from sketchloft.wall.profile import Profile, SplineProfile
+from sketchloft.wall.profile import LineProfile, Profile, SplineProfile
 from sketchloft.wall.revolved import Revolved, radius_at, sizes
 from sketchloft.wall.swept import Swept
 
@@ -33,6 +33,8 @@ HOLE = 12.0
 """What a hole must gain: strokes leave many places empty by chance."""
 TIP = 0.1
 """Height, in sizes of the cloud, of the tip that a flat end may lack to be taken for a pole."""
+STRAIGHT = 4.0
+"""Log odds for a straight wall of circles, against one that hardly bulges or leans."""
 FLAT = 6.0
 """What a flat end must gain over a pole."""
 
@@ -91,7 +93,14 @@ def swaps(model: ExactModel) -> Iterator[Change]:
                 free = _is_free(wall) or _bends(wall, other)
                 changed = with_wall(model, j, i, other)
                 handicap = -FREE_GAIN if _is_free(wall) else rarer([other], [wall])
+                handicap -= STRAIGHT if _straightens(wall, other) else 0.0
                 yield Change(changed, range(j, j + 1), handicap, free=free)
+
+
+def _straightens(wall: Wall, other: Wall) -> bool:
+    """Whether a cylinder or a cone takes the place of a wall of circles that bulges or leans a little."""
+    plain = isinstance(other, Revolved) and isinstance(other.profile, LineProfile)
+    return plain and (isinstance(wall, Swept) or wall.kind == "torus")
 
 
 def fillings(model: ExactModel) -> Iterator[Change]:

@@ -99,8 +99,8 @@ def exact_direction(
         "caps": _standing_out(sphere, _caps(sphere, normals)),
     }
     beside = beside_ball(points, at)
-    found = [] if beside is None else [(beside, "ball")]
-    found += [(axis, "principal") for axis in np.linalg.eigh(points.T @ points)[1].T]
+    found = [(axis, "principal") for axis in np.linalg.eigh(points.T @ points)[1].T]
+    found += [] if beside is None else [(beside, "ball")]
     for source, score in scores.items():
         found += [(REFINE[source](start, at, normals), source) for start in _peaks(sphere, score)]
     coarse = replace(params, most_bins=BINS, shortest=SHORTEST, price=PRICE)

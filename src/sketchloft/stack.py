@@ -41,6 +41,11 @@ class Run:
     walls: tuple[Wall, ...]
     holes: int = 0
 
+    @property
+    def kinds(self) -> list[str]:
+        """Of its walls."""
+        return [wall.kind for wall in self.walls]
+
     def sign(self, index: int) -> int:
         """1 for an outer wall, -1 for the wall of a hole."""
         return -1 if index >= len(self.walls) - self.holes else 1

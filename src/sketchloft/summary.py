@@ -39,7 +39,7 @@ def _body(body: ExactBody | BodyModel) -> dict[str, Any]:
     if isinstance(body, ExactBody):
         vector = body.vector
         found: dict[str, Any] = {
-            "runs": [[wall.kind for wall in run.walls] for run in body.model.stack.runs],
+            "runs": [run.kinds for run in body.model.stack.runs],
             "noise": body.model.sigma * body.scale,
         }
     else:

@@ -30,10 +30,10 @@ def run_words(run: Run) -> str:
     if run.torus is not None:
         return "whole torus"
     outer = len(run.walls) - run.holes
-    parts = [kinds([wall.kind for wall in run.walls[:outer]])]
+    parts = [kinds(run.kinds[:outer])]
     if run.holes:
         name = "hole" if run.holes == 1 else "holes"
-        parts.append(f"{name} {kinds([wall.kind for wall in run.walls[outer:]])}")
+        parts.append(f"{name} {kinds(run.kinds[outer:])}")
     return ", ".join(parts)
 
 

@@ -49,7 +49,7 @@ def merges(model: ExactModel) -> Iterator[Change]:
 
 def _alike(below: Run, above: Run) -> bool:
     """Whether two runs may be one that a third divides."""
-    return below.holes == above.holes and [w.kind for w in below.walls] == [w.kind for w in above.walls]
+    return below.holes == above.holes and below.kinds == above.kinds
 
 
 def _through_both(model: ExactModel, first: int) -> Iterator[Run]:

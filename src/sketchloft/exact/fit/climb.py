@@ -76,12 +76,12 @@ def climbed(now: Evaluation, steps: int, **motion: Unpack[Motion]) -> tuple[Eval
     **motion : Motion
     """
     damping, turn = DAMPING, np.eye(3)
+    limits = motion.get("least", LEAST), motion.get("most", np.inf)
     for _ in range(steps if np.isfinite(now.value) else 0):
         free = free_parameters(now.model, motion)
         if not now.caps:
             free[[now.model.size, -LAST - 1]] = False
-        moved, limits = None, (motion.get("least", LEAST), motion.get("most", np.inf))
-        slopes = now.derivatives(free)
+        moved, slopes = None, now.derivatives(free)
         moving = free & ~_held(now.model, slopes.score, limits)
         for _ in range(6):
             step = _step(slopes, moving, damping, now.model.sigma)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +28,7 @@ __all__ = [
     "evaluated",
     "losses",
     "rising",
+    "scores",
     "share_of",
     "value_of",
 ]
@@ -67,6 +69,8 @@ class Evaluation:
         Minus infinity where the model is not sound: then there are no derivatives.
     derive : callable
         Finds the derivatives by some parameters, which a step that leads downwards has no use for.
+    each : callable
+        Finds what each point adds to their scores (n, p), and the reach.
     """
 
     points: Floats
@@ -74,6 +78,7 @@ class Evaluation:
     caps: bool
     value: float
     derive: Callable[[Bools], Derivatives]
+    each: Callable[[Bools], tuple[Floats, Floats]]
     _found: dict[bytes, Derivatives] = field(default_factory=dict, init=False, repr=False)
 
     def derivatives(self, free: Bools | None = None) -> Derivatives:
@@ -107,30 +112,34 @@ def evaluate(points: Floats, model: ExactModel, *, caps: bool = True) -> Evaluat
 def evaluated(points: Floats, model: ExactModel, *, caps: bool) -> Evaluation:
     """Evaluate, as `evaluate`, what is known to be `rising`."""
     if not sound(model):
-        return Evaluation(points, model, caps, -np.inf, _none)
+        return Evaluation(points, model, caps, -np.inf, _none, _none)
     slabs = slabs_of(points, model, model.sigma, caps=caps)
     rho = model.density.at(points)
     total = rho * share_within(len(points), slabs) + model.stray
     nodes = wall_nodes(model)
 
-    def derive(free: Bools) -> Derivatives:
+    def each(free: Bools) -> tuple[Floats, Floats]:
         slope, reach = slopes_of(points, model, slabs, free)
         ratio = (rho / total)[:, None] * slope
         ratio[:, -1] = model.stray / total
+        return ratio, reach
+
+    def derive(free: Bools) -> Derivatives:
+        ratio, reach = each(free)
         score = ratio.sum(axis=0)
         score[: model.size + len(model.stack.breaks)] -= expected_slope(model, nodes, free, caps=caps)
         score[-1] -= model.stray * model.space
         return Derivatives(score, ratio.T @ ratio, reach)
 
     value = float(np.log(total).sum()) - expected_points(model, nodes) - model.stray * model.space
-    return Evaluation(points, model, caps, value, derive)
+    return Evaluation(points, model, caps, value, derive, each)
 
 
 def _parameters(model: ExactModel) -> int:
     return model.size + len(model.stack.breaks) + LAST
 
 
-def _none(_: Bools) -> Derivatives:
+def _none(_: Bools) -> NoReturn:
     raise ValueError("a model that is not sound has no likelihood, and no derivatives of it")
 
 
@@ -153,14 +162,9 @@ def losses(points: Floats, model: ExactModel) -> Floats:
 
 def scores(points: Floats, model: ExactModel) -> Floats:
     """(n, p) what each of the points (n, 3) says of each parameter: the slopes of its log likelihood."""
-    order = _upwards(points)
-    upwards = np.asfortranarray(points[order])
-    slabs = slabs_of(upwards, model, model.sigma, caps=True)
-    rho = model.density.at(upwards)
-    total = rho * share_within(len(points), slabs) + model.stray
-    slope, _ = slopes_of(upwards, model, slabs, np.ones(_parameters(model), dtype=bool))
-    found = np.empty_like(slope)
-    found[order] = (rho / total)[:, None] * slope
+    ratio, _ = evaluate(points, model).each(np.ones(_parameters(model), dtype=bool))
+    found = np.empty_like(ratio)
+    found[_upwards(points)] = ratio
     return found
 
 

@@ -89,7 +89,7 @@ def _rings(model: ExactModel) -> list[Tie]:
     return [
         tie
         for j, run in enumerate(model.stack.runs)
-        if run.holes == 1 and [wall.kind for wall in run.walls] == ["torus", "torus"]
+        if run.holes == 1 and run.kinds == ["torus", "torus"]
         for tie in halves(j)
     ]
 

@@ -15,7 +15,7 @@ from sketchloft.exact.section.rarity import COMMON, rarer
 from sketchloft.exact.section.segment_walls import segment_run
 from sketchloft.exact.start.first_stack import FEWEST
 from sketchloft.exact.start.start import Start
-from sketchloft.stack import Run, Wall
+from sketchloft.stack import Wall
 from sketchloft.wall.profile import SplineProfile
 from sketchloft.wall.revolved import Revolved
 from sketchloft.wall.swept import Swept
@@ -51,7 +51,7 @@ def resectioned(
     again = {j: (inner, ends) for j, (inner, ends) in among.items() if len(inner) >= FEWEST}
     parts = [(inner, ends, model.sigma, together, model.density) for inner, ends in again.values()]
     for j, run in zip(again, workers.beside(segment_run, parts), strict=True):
-        if run is not None and _kinds(run) != _kinds(model.stack.runs[j]):
+        if run is not None and run.kinds != model.stack.runs[j].kinds:
             handicap = rarer(run.walls, model.stack.runs[j].walls)
             change = Change(with_run(model, j, run), range(j, j + 1), handicap, free=True)
             model = tried(points, model, change, together) or model
@@ -88,7 +88,3 @@ def _between(points: Floats, model: ExactModel, j: int) -> tuple[Floats, tuple[f
     margin = min(BESIDE * model.sigma, (high - low) / 5)
     ends = low + margin, high - margin
     return points[(points[:, 2] > ends[0]) & (points[:, 2] < ends[1])], ends
-
-
-def _kinds(run: Run) -> list[str]:
-    return [wall.kind for wall in run.walls]

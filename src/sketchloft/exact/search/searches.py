@@ -79,7 +79,7 @@ def searched(
     ends = [] if _hopeless(first) else [look(first)]
     if ends and first.together > 1 and ends[0].model.sigma < BLURRED and not _clear(ends[0]):
         progress("runs")
-        found += along(points, ends[0].frame.direction, candidates, params, True, workers=workers)
+        found += along(points, ends[0].frame.direction, candidates, params, fine=True, workers=workers)
         progress("evidence")
         ends += map(look, found[1:])
     done = [end.start for end in ends]

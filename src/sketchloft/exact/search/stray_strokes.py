@@ -144,24 +144,26 @@ def _suspects(points: Floats, model: ExactModel, together: float, *, sharp: bool
     lengths = np.linalg.norm(end - start, axis=1)
     links = coo_array((lengths, pairs.T), shape=(len(near), len(near))).tocsr()
     count, label = connected_components(links, directed=False)
-    cost = np.bincount(label, losses(points[near], model), count) / together
-    first = _pulls(points, model, near, label.astype(np.intp)) if sharp else cost
+    if sharp:
+        first, least = _pulls(points, model, near, label, count), 0.0
+    else:
+        first, least = np.bincount(label, losses(points[near], model), count) / together, COST
     rows: list[Ints] = []
     for k in np.argsort(-first):
         mine = np.flatnonzero(label == k)
-        if len(rows) == SUSPECTS or (not sharp and cost[k] < COST):
+        if len(rows) == SUSPECTS or first[k] < least:
             break
         if len(mine) < MOST * len(points) and _in_a_row(links[mine][:, mine]):
             rows.append(near[mine])
     return rows
 
 
-def _pulls(points: Floats, model: ExactModel, near: Ints, label: Ints) -> Floats:
-    """How far each labelled part of the points near moves the fit, in its own errors (Cook's distance)."""
+def _pulls(points: Floats, model: ExactModel, near: Ints, label: NDArray[np.int32], count: int) -> Floats:
+    """How far each of so many parts of the points near moves the fit, in its errors (Cook's distance)."""
     found = scores(points, model)[:, : model.size]
     information = found.T @ found
     information += LEAST * float(np.trace(information)) / len(information) * np.eye(len(information))
-    sums = np.zeros((int(label.max(initial=-1)) + 1, model.size))
+    sums = np.zeros((count, model.size))
     np.add.at(sums, label, found[near])
     return np.asarray((sums * np.linalg.solve(information, sums.T).T).sum(axis=1))
 

@@ -97,6 +97,20 @@ def test_what_is_too_short_or_not_at_an_end_has_no_round_ends() -> None:
     ]
 
 
+@pytest.mark.parametrize("side", [-1, 1])
+def test_what_bulges_beyond_a_cylinder_may_be_half_a_sphere_of_its_radius(side: int) -> None:
+    """By itself, a dome found in slices is too far from one, with a break that has to move, too."""
+    dome = Swept(Circle(ORIGIN, 0.19), 0.0, ORIGIN, ORIGIN, 0.0, 0.0, ("taper", "bow"), 0.3)
+    runs = Run((Revolved(ORIGIN, LineProfile(0.0, 0.2, None)),)), Run((dome,))
+    stack = Stack(np.array([-0.4, 0.25, 0.38]) * side, runs)
+    stack = stack if side > 0 else Stack(stack.breaks[::-1], runs[::-1])
+    models = [change.model for change in round_ends(of(stack)) if len(change.model.stack.runs) == 2]
+    (model,) = models
+    assert kinds(model) == ([["cylinder"], ["sphere"]] if side > 0 else [["sphere"], ["cylinder"]])
+    assert np.sort(side * model.stack.breaks) == pytest.approx([-0.4, 0.18, 0.38])
+    assert model.joins[1] == "tangent"
+
+
 def test_ties_outlast_a_change_elsewhere_and_no_other() -> None:
     cylinder = of(Stack(np.array([-0.4, 0.4]), (Run((Revolved(ORIGIN, LineProfile(0.0, 0.2, None)),)),)))
     both = next(round_ends(cylinder)).model

@@ -13,6 +13,7 @@ from sketchloft.exact.changes.change import Change, Key
 from sketchloft.exact.changes.free_profiles import splined
 from sketchloft.exact.changes.free_trial import BEYOND
 from sketchloft.exact.changes.merges import merges
+from sketchloft.exact.changes.profile_start import respanned
 from sketchloft.exact.changes.run_changes import swaps
 from sketchloft.exact.changes.trial import tried
 from sketchloft.exact.changes.worth import worth
@@ -27,8 +28,9 @@ from sketchloft.exact.start.start import start_along
 from sketchloft.outline.circle import Circle
 from sketchloft.sample import GOALS, FillParams, sample_goal
 from sketchloft.stack import Run, Stack, Wall
-from sketchloft.wall.profile import ArcProfile, LineProfile
-from sketchloft.wall.revolved import Revolved
+from sketchloft.surface import even_knots
+from sketchloft.wall.profile import ArcProfile, LineProfile, SplineProfile
+from sketchloft.wall.revolved import Revolved, radius_at
 from sketchloft.wall.swept import Swept
 
 COUNT = 6000
@@ -155,3 +157,13 @@ def test_what_hardly_bulges_or_leans_is_a_cone(wall: Wall) -> None:
         model, _, _ = climb(points, model_with(wall), 20)
         cones = [change for change in swaps(model) if change.model.stack.walls[0].kind == "cone"]
         assert any(tried(points, model, change, 1) is not None for change in cones)
+
+
+def test_a_profile_of_more_spans_starts_as_the_one_of_fewer_is() -> None:
+    ends = (-0.5, 0.5)
+    radii = 0.3 + 0.1 * np.sin(np.arange(10.0))
+    bent = Revolved(ORIGIN, SplineProfile(even_knots(-0.56, 0.56, 7), radii))
+    finer = respanned(bent, ends, 14)
+    assert finer.vector.size == 2 + 17
+    z = np.linspace(*ends, 200)
+    assert radius_at(finer.profile, z)[0] == pytest.approx(radius_at(bent.profile, z)[0], abs=1e-4)

@@ -9,13 +9,13 @@ import numpy as np
 from sketchloft.cloud import Floats
 from sketchloft.exact.changes.change import FREE_GAIN, Change, Key, free_gain
 from sketchloft.exact.changes.misfit import HOPE, misfit
-from sketchloft.exact.changes.profile_start import profile_start
+from sketchloft.exact.changes.profile_start import profile_start, respanned
 from sketchloft.exact.changes.trial import tried
 from sketchloft.exact.fit.clear import clear
 from sketchloft.exact.fit.schwarz import price
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.joins import sole_profile
-from sketchloft.exact.model.surgery import with_runs
+from sketchloft.exact.model.surgery import with_run, with_runs
 from sketchloft.stack import Run
 from sketchloft.wall.profile import SplineProfile
 from sketchloft.wall.revolved import Revolved, radius_at
@@ -123,16 +123,31 @@ def _chains(model: ExactModel, start: int) -> Iterator[range]:
 
 def _with_more_spans(points: Floats, model: ExactModel, j: int, place: int, together: float) -> ExactModel:
     """The model with more spans in the free profile of a run, as long as that pays."""
-    one = range(j, j + 1)
     for spans, each in [*SPANS.items()][place + 1 :]:
-        change = _with_spline(points, model, one, spans)
-        more = change.parameters - model.parameters
-        handicap = each * more - price(more, len(points), together)
-        better = tried(points, model, Change(change, one, handicap, free=True), together)
-        if better is None:
-            break
+        for start in _starts(points, model, j, spans):
+            more = start.parameters - model.parameters
+            handicap = each * more - price(more, len(points), together)
+            change = Change(start, range(j, j + 1), handicap, free=True)
+            better = tried(points, model, change, together)
+            if better is not None:
+                break
+        else:
+            return model
         model = better
     return model
+
+
+def _starts(points: Floats, model: ExactModel, j: int, spans: int) -> Iterator[ExactModel]:
+    """The model with so many spans in the free profile of a run: as the profile is, and as the points say.
+
+    Points say little of a waist, or an end, that few strokes reach, and a start that is far off there takes
+    more steps than a change is given.
+    """
+    low, high = model.stack.breaks[j : j + 2].tolist()
+    wall = sole_profile(model.stack.runs[j])
+    if wall is not None:
+        yield with_run(model, j, Run((respanned(wall, (low, high), spans),)))
+    yield _with_spline(points, model, range(j, j + 1), spans)
 
 
 def _with_spline(points: Floats, model: ExactModel, chain: range, spans: int) -> ExactModel:

@@ -7,9 +7,9 @@ import numpy as np
 from sketchloft.cloud import Floats
 from sketchloft.surface import basis_matrix, even_knots
 from sketchloft.wall.profile import SplineProfile
-from sketchloft.wall.revolved import Revolved
+from sketchloft.wall.revolved import Revolved, radius_at
 
-__all__ = ["profile_start"]
+__all__ = ["profile_start", "respanned"]
 
 HEIGHTS = 60
 """Heights at which the radii are taken over from the fit of their squares."""
@@ -41,8 +41,7 @@ def profile_start(
         Knot spans.
     """
     low, high = ends
-    margin = 0.05 * (high - low) + 0.01
-    knots = even_knots(low - margin, high + margin, spans)
+    knots = _knots(ends, spans)
     inner = points[(points[:, 2] > low) & (points[:, 2] < high)]
     square = ((inner[:, :2] - centre) ** 2).sum(axis=1)
     basis = basis_matrix(knots, SplineProfile.degree, inner[:, 2])
@@ -59,9 +58,35 @@ def profile_start(
         fitted = basis @ squares
         r = np.sqrt(np.maximum(fitted, LEAST * float(fitted.max(initial=0.0))))
     z = np.linspace(low, high, HEIGHTS)
-    at = basis_matrix(knots, SplineProfile.degree, z)
-    across = at @ squares
+    across = basis_matrix(knots, SplineProfile.degree, z) @ squares
     wall = np.sqrt(np.maximum(across, LEAST * float(across.max())))
-    rows = np.concatenate([at, STIFF * stiff])
-    poles = np.linalg.lstsq(rows, np.r_[wall, np.zeros(len(stiff))], rcond=None)[0]
-    return Revolved(centre, SplineProfile(knots, poles))
+    return Revolved(centre, _through(z, wall, knots))
+
+
+def respanned(wall: Revolved, ends: tuple[float, float], spans: int) -> Revolved:
+    """The wall with a free profile of so many knot spans that is nearest to its own.
+
+    Parameters
+    ----------
+    wall : Revolved
+    ends : (low, high)
+        Heights.
+    spans : int
+    """
+    z = np.linspace(*ends, HEIGHTS)
+    return Revolved(wall.centre, _through(z, radius_at(wall.profile, z)[0], _knots(ends, spans)))
+
+
+def _knots(ends: tuple[float, float], spans: int) -> Floats:
+    """A little wider than the heights, so that the ends may move."""
+    low, high = ends
+    margin = 0.05 * (high - low) + 0.01
+    return even_knots(low - margin, high + margin, spans)
+
+
+def _through(z: Floats, radii: Floats, knots: Floats) -> SplineProfile:
+    """Free profile nearest to radii (m,) at heights (m,)."""
+    at = basis_matrix(knots, SplineProfile.degree, z)
+    stiff = STIFF * np.diff(np.eye(at.shape[1]), 2, axis=0)
+    rows = np.concatenate([at, stiff])
+    return SplineProfile(knots, np.linalg.lstsq(rows, np.r_[radii, np.zeros(len(stiff))], rcond=None)[0])

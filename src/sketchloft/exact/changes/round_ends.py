@@ -10,9 +10,12 @@ from sketchloft.cloud import Floats
 from sketchloft.exact.changes.change import CHAIN_GAIN, FREE_GAIN, Change
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.joins import sole_profile
-from sketchloft.exact.model.surgery import with_split
+from sketchloft.exact.model.surgery import with_runs, with_split
+from sketchloft.outline.circle import Circle
+from sketchloft.stack import Run
 from sketchloft.wall.profile import ArcProfile, LineProfile, Profile, SplineProfile
 from sketchloft.wall.revolved import Revolved, radius_at
+from sketchloft.wall.swept import Swept
 
 __all__ = ["capped", "round_ends"]
 
@@ -23,12 +26,13 @@ SIDES = ((-1, 1), (-1,), (1,))
 
 
 def round_ends(model: ExactModel) -> Iterator[Change]:
-    """A cylinder with half a sphere at both ends, or at one, in the place of a revolved run at an end.
+    """Half a sphere of its own radius at an end of a cylinder, or at both, for what is there instead.
 
     Notes
     -----
-    The halves have the axis and the radius of the cylinder from the start, so that three runs have no more
-    numbers than one. Otherwise a curve that follows a few points takes the place of both ends.
+    That is part of a revolved run at an end of the stack, or a run of circles beyond a cylinder. The halves
+    have the axis and the radius of the cylinder from the start, so that three runs have no more numbers than
+    one. Otherwise a curve that follows a few points takes the place of both ends.
     """
     last = len(model.stack.runs) - 1
     for j, (run, low, high) in enumerate(model.stack.slabs()):
@@ -44,6 +48,30 @@ def round_ends(model: ExactModel) -> Iterator[Change]:
                 simpler = (CHAIN_GAIN if len(walls) > 2 else FREE_GAIN) if free else 0.0
                 split = with_split(model, j, heights, walls)
                 yield Change(split, range(j, j + len(walls)), -simpler, free=free)
+    for end, j, side in ((0, 1, -1), (last, last - 1, 1)):
+        if last > 0 and _bulges(model.stack.runs[end]):
+            yield from _cap(model, j, side)
+
+
+def _bulges(run: Run) -> bool:
+    """Whether a run of circles is none of the plain kinds."""
+    wall = run.walls[0]
+    swept = isinstance(wall, Swept) and isinstance(wall.outline, Circle)
+    return len(run.walls) == 1 and (swept or wall.kind in ("torus", "spline revolve"))
+
+
+def _cap(model: ExactModel, j: int, side: int) -> Iterator[Change]:
+    """Half a sphere for the run beyond a cylinder, on one side of it."""
+    wall = sole_profile(model.stack.runs[j])
+    if wall is None or wall.kind != "cylinder":
+        return
+    first, last = sorted((j, j + side))
+    low, high = model.stack.breaks[[first, last + 1]].tolist()
+    radius = float(radius_at(wall.profile, np.array([low]))[0][0])
+    if high - low > (1 + SHORTEST) * radius:
+        heights, walls = capped(wall.centre, radius, (low, high), (side,))
+        one = with_runs(model, first, last, model.stack.runs[j])
+        yield Change(with_split(one, first, heights, walls), range(first, last + 1))
 
 
 def capped(

@@ -122,32 +122,24 @@ def _chains(model: ExactModel, start: int) -> Iterator[range]:
 
 
 def _with_more_spans(points: Floats, model: ExactModel, j: int, place: int, together: float) -> ExactModel:
-    """The model with more spans in the free profile of a run, as long as that pays."""
+    """The model with more spans in the free profile of a run, as long as that pays.
+
+    It starts from the profile as it is: points say little of a waist, or an end, that few strokes reach, and
+    a start that is far off there takes more steps than a change is given.
+    """
     for spans, each in [*SPANS.items()][place + 1 :]:
-        for start in _starts(points, model, j, spans):
-            more = start.parameters - model.parameters
-            handicap = each * more - price(more, len(points), together)
-            change = Change(start, range(j, j + 1), handicap, free=True)
-            better = tried(points, model, change, together)
-            if better is not None:
-                break
-        else:
-            return model
+        wall = sole_profile(model.stack.runs[j])
+        if wall is None:
+            break
+        low, high = model.stack.breaks[j : j + 2].tolist()
+        finer = with_run(model, j, Run((respanned(wall, (low, high), spans),)))
+        more = finer.parameters - model.parameters
+        handicap = each * more - price(more, len(points), together)
+        better = tried(points, model, Change(finer, range(j, j + 1), handicap, free=True), together)
+        if better is None:
+            break
         model = better
     return model
-
-
-def _starts(points: Floats, model: ExactModel, j: int, spans: int) -> Iterator[ExactModel]:
-    """The model with so many spans in the free profile of a run: as the profile is, and as the points say.
-
-    Points say little of a waist, or an end, that few strokes reach, and a start that is far off there takes
-    more steps than a change is given.
-    """
-    low, high = model.stack.breaks[j : j + 2].tolist()
-    wall = sole_profile(model.stack.runs[j])
-    if wall is not None:
-        yield with_run(model, j, Run((respanned(wall, (low, high), spans),)))
-    yield _with_spline(points, model, range(j, j + 1), spans)
 
 
 def _with_spline(points: Floats, model: ExactModel, chain: range, spans: int) -> ExactModel:

@@ -16,9 +16,10 @@ from sketchloft.exact.changes.merges import merges
 from sketchloft.exact.changes.profile_start import respanned
 from sketchloft.exact.changes.run_changes import swaps
 from sketchloft.exact.changes.trial import tried
-from sketchloft.exact.changes.worth import worth
+from sketchloft.exact.changes.worth import LEANING, PER_RUN, worth, worth_of
 from sketchloft.exact.fit.climb import climb, promise
 from sketchloft.exact.fit.likelihood import evaluate
+from sketchloft.exact.fit.schwarz import price
 from sketchloft.exact.model.density import Density
 from sketchloft.exact.model.exact_model import ExactModel, model_of
 from sketchloft.exact.model.joins import natural_joins
@@ -57,6 +58,14 @@ def cylinder(radius: float = 0.3) -> Revolved:
 
 def cone(slope: float = 0.0) -> Revolved:
     return Revolved(ORIGIN, LineProfile(0.0, 0.3, slope))
+
+
+def sphere() -> Revolved:
+    return Revolved(ORIGIN, ArcProfile(0.0, None, 0.42))
+
+
+def torus() -> Revolved:
+    return Revolved(ORIGIN, ArcProfile(0.0, -0.5, 0.9))
 
 
 @pytest.mark.parametrize("off", [-0.004, -0.001, 0.002, 0.004])
@@ -167,3 +176,13 @@ def test_a_profile_of_more_spans_starts_as_the_one_of_fewer_is() -> None:
     assert finer.vector.size == 2 + 17
     z = np.linspace(*ends, 200)
     assert radius_at(finer.profile, z)[0] == pytest.approx(radius_at(bent.profile, z)[0], abs=1e-4)
+
+
+@pytest.mark.parametrize(("profile", "ways"), [(cylinder(), 0), (cone(), 1), (sphere(), 1), (torus(), 2)])
+def test_what_is_drawn_less_often_must_gain_more(profile: Revolved, ways: int) -> None:
+    """What strokes fill tells a cone from a zone of a sphere or a torus hardly."""
+    model = model_with(profile)
+    parameters = model.parameters + PER_RUN + 2  # and the direction
+    seen = evaluate(frustum(0.0), model)
+    expected = seen.value - price(parameters, COUNT, 1) - LEANING * ways
+    assert worth_of(seen, 1, COUNT) == pytest.approx(expected)

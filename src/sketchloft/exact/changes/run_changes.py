@@ -10,6 +10,8 @@ from sketchloft.cloud import Floats
 from sketchloft.exact.changes.change import FREE_GAIN, Change, free_gain
 from sketchloft.exact.changes.section_radii import SectionRadii, piece_costs, section_radii
 from sketchloft.exact.changes.simpler_walls import profiles_like, walls_like
+from sketchloft.exact.changes.worth import LEANING
+from sketchloft.exact.fit.schwarz import price
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.joins import end_pole, natural_joins, sole_profile
 from sketchloft.exact.model.surgery import with_run, with_split, with_wall
@@ -27,6 +29,8 @@ __all__ = ["closings", "fillings", "splits", "swaps"]
 PIECE = 8.0
 """What a piece of a profile must gain for there to be more than three, in squared deviations."""
 MOST_PIECES = 6
+BENT = 2 * LEANING
+"""What a piece that is no cylinder must gain besides its price, in the same."""
 SHORTEST = 4
 """Radii that each part has at least."""
 HOLE = 12.0
@@ -55,7 +59,8 @@ def splits(points: Floats, model: ExactModel, together: float) -> Iterator[Chang
         if wall is None or found is None:
             continue
         free = _is_free(wall)
-        cost = piece_costs(found, SHORTEST)
+        each = 2 * price(1, len(points), together)
+        cost = piece_costs(found, SHORTEST, each, BENT)
         last = len(found.heights)
         inner = range(SHORTEST, last - SHORTEST + 1)
         many = tuple(cheapest_chain(cost + PIECE)[0])
@@ -67,20 +72,22 @@ def splits(points: Floats, model: ExactModel, together: float) -> Iterator[Chang
             if not cuts:
                 continue
             best = min(cuts, key=lambda cut: sum(cost[pair] for pair in pairwise(cut)))
-            walls = [replace(wall, profile=_closest(found, *pair)) for pair in pairwise(best)]
+            walls = [replace(wall, profile=_closest(found, *pair, each)) for pair in pairwise(best)]
             heights = [float(found.heights[k - 1 : k + 1].mean()) for k in best[1:-1]]
             split = with_split(model, j, heights, walls)
             handicap = -free_gain(len(walls), 0, len(points), together) if free else 0.0
             yield Change(split, range(j, j + len(walls)), handicap, free=free)
 
 
-def _closest(found: SectionRadii, start: int, stop: int) -> Profile:
-    """The line or arc that costs least in the place of some radii (Akaike's criterion)."""
+def _closest(found: SectionRadii, start: int, stop: int, each: float) -> Profile:
+    """The line or arc that costs least in the place of some radii, as `piece_costs`."""
     part = slice(start, stop)
     z, r, deviation = found.heights[part], found.radii[part], found.deviations[part]
 
     def cost(profile: Profile) -> float:
-        return float((((radius_at(profile, z)[0] - r) / deviation) ** 2).sum()) + 2 * sizes(profile)
+        numbers = sizes(profile)
+        left = float((((radius_at(profile, z)[0] - r) / deviation) ** 2).sum())
+        return left + each * numbers + (BENT if numbers > 1 else 0.0)
 
     return min(profiles_like(z, r), key=cost)
 

@@ -64,8 +64,16 @@ def section_radii(
     return SectionRadii(low + (np.arange(slabs) + 0.5) * (high - low) / slabs, radii, deviations)
 
 
-def piece_costs(found: SectionRadii, fewest: int) -> Floats:
-    """Cost (m + 1, m + 1) of one line or arc over radii i to j - 1 (Akaike's criterion); inf for too few.
+def piece_costs(found: SectionRadii, fewest: int, each: float, leaning: float) -> Floats:
+    """Cost (m + 1, m + 1) of one line or arc over radii i to j - 1; inf for too few.
+
+    Parameters
+    ----------
+    found : SectionRadii
+    fewest : int
+        Radii of a piece at least.
+    each, leaning : float
+        Price of a number, and what any but a cylinder must gain besides, in squared deviations.
 
     Notes
     -----
@@ -76,7 +84,7 @@ def piece_costs(found: SectionRadii, fewest: int) -> Floats:
     line = _left(z, r, weight)
     cylinder = _left(np.zeros_like(z), r, weight)
     arc = _left(z, r**2 + z**2, weight / (4 * r**2))
-    cost = np.minimum(np.minimum(cylinder + 2, line + 4), arc + 4)
+    cost = np.minimum(np.minimum(cylinder + each, line + 2 * each + leaning), arc + 2 * each + leaning)
     i, j = np.indices(cost.shape)
     return np.where(j - i >= fewest, cost, np.inf)
 

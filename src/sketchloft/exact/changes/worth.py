@@ -9,10 +9,10 @@ from sketchloft.exact.fit.likelihood import Evaluation, evaluate
 from sketchloft.exact.fit.schwarz import price
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.soundness import detached, slits
-from sketchloft.stack import Wall
+from sketchloft.stack import Run
 from sketchloft.wall.swept import Swept
 
-__all__ = ["PER_RUN", "worth", "worth_of"]
+__all__ = ["LEANING", "PER_RUN", "worth", "worth_of"]
 
 SHORT = 8.0
 """Runs shorter than so many noise deviations are taken for noise unless they gain a lot."""
@@ -22,6 +22,8 @@ SLIT = 40.0
 """What a slit must gain: by chance there are no points in some that are thin enough."""
 LEANING = 4.0
 """Log odds against each way in which a wall is not straight and upright: by chance many are not by a hair."""
+BENT = {"cone": 1, "sphere": 1, "torus": 2}
+"""In how many ways walls of revolution are not: a designer draws a torus less often than a cone."""
 PER_RUN = 2
 """Parameters that a run is priced as, beside those of its walls."""
 DIRECTION = 2
@@ -41,7 +43,7 @@ def worth_of(seen: Evaluation, together: float, count: int) -> float:
     lengths = np.diff(model.stack.breaks)
     short = np.maximum(1 - lengths / (SHORT * model.sigma), 0.0)
     odd = SHORTNESS * float(short.sum()) + DETACHED * detached(model) + SLIT * slits(model)
-    odd += LEANING * sum(map(_leanings, model.stack.walls))
+    odd += LEANING * sum(map(_leanings, model.stack.runs))
     parameters = model.parameters + PER_RUN * len(lengths) + (0 if _is_ball(model) else DIRECTION)
     return seen.value / together - (price(parameters, count, together) + odd)
 
@@ -51,6 +53,7 @@ def _is_ball(model: ExactModel) -> bool:
     return model.joins == ("pole", "pole") and [wall.kind for wall in model.stack.walls] == ["sphere"]
 
 
-def _leanings(wall: Wall) -> int:
-    """In how many ways a wall is not straight and upright that others of its kind are."""
-    return len(wall.free) if isinstance(wall, Swept) else int(wall.kind == "cone")
+def _leanings(run: Run) -> int:
+    """In how many ways walls are not straight and upright that others of their kind are."""
+    walls = run.walls[:1] if run.torus is not None else run.walls  # two halves are one thing
+    return sum(len(wall.free) if isinstance(wall, Swept) else BENT.get(wall.kind, 0) for wall in walls)

@@ -39,6 +39,10 @@ STAIRS = RectilinearPolygon(np.array([-3.0, 4.0, 3.0, 2.0, 1.5, 0.0, 0.0, -2.0, 
 WALLS: dict[str, tuple[Wall, float]] = {
     "square to round": (Ruled(SQUARE, DividedCircle(ORIGIN, 2.6, 0.3 + np.pi / 4, 0.0), 0.0, 6.0), 6.0),
     "round to square": (Ruled(DividedCircle(ORIGIN, 2.0, 0.3 + np.pi / 4, 0.0), SQUARE, 0.0, 6.0), 6.0),
+    "square to round, half as wide": (
+        Ruled(SQUARE, DividedCircle(ORIGIN, 2.0, 0.3 + np.pi / 4, 0.0), 0.0, 7.0),
+        7.0,
+    ),
     "edges rounded": (prism(ROUNDED), 5.0),
     "all edges rounded": (
         Filleted(RoundedRectangle(ORIGIN, 6.0, 4.0, 0.2, 0.9), None, "both", 0.0, 5.0),
@@ -73,8 +77,8 @@ def points_in(name: str, seed: int = 1) -> Floats:
     return scribbled(inside, np.array([-5.0, -5.0, 0.0]), np.array([5.0, 5.0, height]), N, seed)
 
 
-def model(name: str) -> ExactBody:
-    (body,) = reconstruct(PointCloud.of(points_in(name)), Params("exact")).bodies
+def model(name: str, seed: int = 1) -> ExactBody:
+    (body,) = reconstruct(PointCloud.of(points_in(name, seed)), Params("exact")).bodies
     assert isinstance(body, ExactBody), body.instead
     return body
 
@@ -88,6 +92,14 @@ def test_what_was_scribbled_is_recognised(name: str) -> None:
     wall, height = WALLS[name]
     true = Stack(np.array([0.0, height]), (Run((wall,)),))
     assert body.facts.volume == pytest.approx(stack_volume(true), rel=0.03)
+
+
+@SLOW
+@pytest.mark.parametrize("seed", [2, 5])
+def test_a_wall_far_from_the_points_is_tried_as_a_ruled_one(seed: int) -> None:
+    """A tapered rectangle, which promises little by slopes and yet is not blurred enough to be given up."""
+    body = model("square to round, half as wide", seed)
+    assert [wall.kind for wall in body.model.stack.walls] == ["ruled"]
 
 
 @pytest.mark.parametrize("seed", [2, 3, 6, 8])

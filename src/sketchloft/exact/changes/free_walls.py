@@ -37,6 +37,8 @@ SIMPLEST = 10
 """Parameters of a ruled wall at least: those of a rectangle and a circle."""
 MUCH = 10.0
 """`HOPE` for a loft."""
+FAR = 0.005
+"""Noise of strokes above which walls are so far off that slopes do not tell what their halves would gain."""
 LOFTS = (((12, 2), (12, 4), (18, 4), (24, 6)), ((16, 1), (24, 1), (24, 3)))
 """Poles around and spans along of the free lofts that are tried, each list as long as it pays."""
 
@@ -92,7 +94,7 @@ def _may_be_ruled(points: Floats, model: ExactModel, chain: range, together: flo
         return True
     if together == 1 or clear(points, model, chain):
         return False
-    if len(chain) > 1:
+    if len(chain) > 1 or model.sigma > FAR:
         return True
     halves = price(len(walls[0].vector), len(points), together) + GAIN
     return BEYOND * _by_halves(points, model, chain) / together + BLURRED > max(least, halves)

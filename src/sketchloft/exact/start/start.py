@@ -16,6 +16,7 @@ from sketchloft.exact.fit.climb import climb
 from sketchloft.exact.fit.fit_density import fit_density
 from sketchloft.exact.fit.likelihood import beside_walls
 from sketchloft.exact.model.exact_model import ExactModel
+from sketchloft.exact.model.soundness import sound
 from sketchloft.exact.start.direction import Candidate
 from sketchloft.exact.start.first_stack import first_stack
 from sketchloft.exact.start.seen import Seen, in_frame, sampled, seen_along
@@ -124,6 +125,11 @@ def start_along(
     ------
     StageError
         If no section is found, or the points are on a skin.
+
+    Notes
+    -----
+    Sections found at the ends of a thing that leans may make no solid with the others, so that nothing can be
+    fitted; those that are left when it is merged are fitted then.
     """
     frame = frame_along(vector, points)
     local = in_frame(points, frame)
@@ -151,6 +157,9 @@ def start_along(
         raise StageError("found no section that the points fill; draw more of the inside", stage="runs")
     settled, sample, settling = _settled(sampled(local), first, tilt=bool(candidates))
     lean = merged(sample, settled, together, workers)
+    if not sound(settled) and sound(lean):
+        settled, sample, rotation = _settled(sample, lean, tilt=bool(candidates))
+        lean, settling = merged(sample, settled, together, workers), settling @ rotation
     return Start(
         candidates, frame, local, sample, cuts, together, first, settled, lean, settling, fine, rough
     )

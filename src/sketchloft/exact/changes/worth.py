@@ -22,7 +22,7 @@ SLIT = 40.0
 """What a slit must gain: by chance there are no points in some that are thin enough."""
 LEANING = 4.0
 """Log odds against each way in which a wall is not straight and upright: by chance many are not by a hair."""
-BENT = {"cone": 1, "sphere": 1, "torus": 2}
+BENT = {"cone": 1, "torus": 2}
 """In how many ways walls of revolution are not: a designer draws a torus less often than a cone."""
 PER_RUN = 2
 """Parameters that a run is priced as, beside those of its walls."""

@@ -29,7 +29,7 @@ __all__ = ["closings", "fillings", "splits", "swaps"]
 PIECE = 8.0
 """What a piece of a profile must gain for there to be more than three, in squared deviations."""
 MOST_PIECES = 6
-BENT = 2 * LEANING
+LESS_PLAIN = 2 * LEANING
 """What a piece that is no cylinder must gain besides its price, in the same."""
 SHORTEST = 4
 """Radii that each part has at least."""
@@ -60,7 +60,7 @@ def splits(points: Floats, model: ExactModel, together: float) -> Iterator[Chang
             continue
         free = _is_free(wall)
         each = 2 * price(1, len(points), together)
-        cost = piece_costs(found, SHORTEST, each, BENT)
+        cost = piece_costs(found, SHORTEST, each, LESS_PLAIN)
         last = len(found.heights)
         inner = range(SHORTEST, last - SHORTEST + 1)
         many = tuple(cheapest_chain(cost + PIECE)[0])
@@ -87,7 +87,7 @@ def _closest(found: SectionRadii, start: int, stop: int, each: float) -> Profile
     def cost(profile: Profile) -> float:
         numbers = sizes(profile)
         left = float((((radius_at(profile, z)[0] - r) / deviation) ** 2).sum())
-        return left + each * numbers + (BENT if numbers > 1 else 0.0)
+        return left + each * numbers + (LESS_PLAIN if numbers > 1 else 0.0)
 
     return min(profiles_like(z, r), key=cost)
 

@@ -42,6 +42,10 @@ STRAIGHT = 4.0
 FLAT = 6.0
 """What a flat end must gain over a pole."""
 
+Prices = tuple[float, float]
+"""Of each number of a piece, and what one that is no cylinder must gain besides."""
+Cuts = tuple[int, ...]
+
 
 def splits(points: Floats, model: ExactModel, together: float) -> Iterator[Change]:
     """Runs of lines or arcs, many, three or two, for a revolved one, cut where they fit the points best.
@@ -52,42 +56,52 @@ def splits(points: Floats, model: ExactModel, together: float) -> Iterator[Chang
     model : ExactModel
     together : float
         How many of the points go together.
+
+    Notes
+    -----
+    They are found at the price that a number has by Akaike's criterion, which follows the points, and by
+    Schwarz's, which models are judged by and which sees cylinders where the first sees cones.
     """
+    prices = (2.0, 0.0), (2 * price(1, len(points), together), LESS_PLAIN)
     for j, (run, low, high) in enumerate(model.stack.slabs()):
         wall = sole_profile(run)
         found = None if wall is None else section_radii(points, wall, (low, high), together)
         if wall is None or found is None:
             continue
         free = _is_free(wall)
-        each = 2 * price(1, len(points), together)
-        cost = piece_costs(found, SHORTEST, each, LESS_PLAIN)
-        last = len(found.heights)
-        inner = range(SHORTEST, last - SHORTEST + 1)
-        many = tuple(cheapest_chain(cost + PIECE)[0])
-        for cuts in (
-            [many] if 4 <= len(many) - 1 <= MOST_PIECES else [],
-            [(0, k, m, last) for k in inner for m in inner if m >= k + SHORTEST],
-            [(0, k, last) for k in inner],
-        ):
-            if not cuts:
-                continue
-            best = min(cuts, key=lambda cut: sum(cost[pair] for pair in pairwise(cut)))
-            walls = [replace(wall, profile=_closest(found, *pair, each)) for pair in pairwise(best)]
-            heights = [float(found.heights[k - 1 : k + 1].mean()) for k in best[1:-1]]
-            split = with_split(model, j, heights, walls)
-            handicap = -free_gain(len(walls), 0, len(points), together) if free else 0.0
-            yield Change(split, range(j, j + len(walls)), handicap, free=free)
+        for pieces in zip(*(_pieces(found, each) for each in prices), strict=True):
+            for cuts, profiles in filter(None, pieces):
+                walls = [replace(wall, profile=profile) for profile in profiles]
+                heights = [float(found.heights[k - 1 : k + 1].mean()) for k in cuts[1:-1]]
+                split = with_split(model, j, heights, walls)
+                handicap = -free_gain(len(walls), 0, len(points), together) if free else 0.0
+                yield Change(split, range(j, j + len(walls)), handicap, free=free)
 
 
-def _closest(found: SectionRadii, start: int, stop: int, each: float) -> Profile:
+def _pieces(found: SectionRadii, prices: Prices) -> Iterator[tuple[Cuts, list[Profile]] | None]:
+    """Where radii are best cut into many pieces, three and two, and these; None where they cannot be."""
+    cost = piece_costs(found, SHORTEST, *prices)
+    last = len(found.heights)
+    inner = range(SHORTEST, last - SHORTEST + 1)
+    many = tuple(cheapest_chain(cost + PIECE)[0])
+    for cuts in (
+        [many] if 4 <= len(many) - 1 <= MOST_PIECES else [],
+        [(0, k, m, last) for k in inner for m in inner if m >= k + SHORTEST],
+        [(0, k, last) for k in inner],
+    ):
+        best = min(cuts, key=lambda cut: sum(cost[pair] for pair in pairwise(cut)), default=None)
+        yield best and (best, [_closest(found, *pair, prices) for pair in pairwise(best)])
+
+
+def _closest(found: SectionRadii, start: int, stop: int, prices: Prices) -> Profile:
     """The line or arc that costs least in the place of some radii, as `piece_costs`."""
-    part = slice(start, stop)
+    part, (each, leaning) = slice(start, stop), prices
     z, r, deviation = found.heights[part], found.radii[part], found.deviations[part]
 
     def cost(profile: Profile) -> float:
         numbers = sizes(profile)
         left = float((((radius_at(profile, z)[0] - r) / deviation) ** 2).sum())
-        return left + each * numbers + (LESS_PLAIN if numbers > 1 else 0.0)
+        return left + each * numbers + (leaning if numbers > 1 else 0.0)
 
     return min(profiles_like(z, r), key=cost)
 

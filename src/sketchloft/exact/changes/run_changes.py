@@ -90,7 +90,7 @@ def _pieces(found: SectionRadii, prices: Prices) -> Iterator[tuple[Cuts, list[Pr
         [(0, k, last) for k in inner],
     ):
         best = min(cuts, key=lambda cut: sum(cost[pair] for pair in pairwise(cut)), default=None)
-        yield best and (best, [_closest(found, *pair, prices) for pair in pairwise(best)])
+        yield None if best is None else (best, [_closest(found, *pair, prices) for pair in pairwise(best)])
 
 
 def _closest(found: SectionRadii, start: int, stop: int, prices: Prices) -> Profile:

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
-
 from sketchloft.cloud import Floats
 from sketchloft.exact.changes.change import Change
 from sketchloft.exact.changes.free_trial import tried_free
+from sketchloft.exact.fit.clear import clear
 from sketchloft.exact.fit.schwarz import price
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.surgery import with_wall
@@ -22,11 +21,11 @@ __all__ = ["with_poles_that_pay"]
 
 RICH = 36
 """Poles of a spline that follows the points wherever they lead."""
-POLES = (8, 12, 16, 20, 24, 30)
+POLES = (8, 10, 12, 16, 20, 24, 30)
 """Numbers of poles that are tried."""
 CHEAP = 2.5
 """What each pole must gain: as those of a free loft, they are there to follow the points."""
-PATIENCE = 2
+PATIENCE = 3
 """Numbers of poles in turn that may not pay: a curve with waves needs as many as suit them."""
 AROUND = 8 * RICH
 
@@ -49,9 +48,17 @@ def with_poles_that_pay(points: Floats, model: ExactModel, together: float) -> E
     """
     for j, run in enumerate(model.stack.runs):
         for i, wall in enumerate(run.walls):
-            if isinstance(wall, Swept) and may_be_free(wall.outline):
+            if isinstance(wall, Swept) and _may_be_free(points, model, (j, i), wall.outline, together):
                 model = _refined(points, model, (j, i), wall.outline, together)
     return model
+
+
+def _may_be_free(
+    points: Floats, model: ExactModel, place: tuple[int, int], outline: Outline, together: float
+) -> bool:
+    """Whether an outline may stand for a free curve: by its kind, or as strokes leave it blurred."""
+    runs = range(place[0], place[0] + 1)
+    return may_be_free(outline) or (together > 1 and not clear(points, model, runs))
 
 
 def _refined(
@@ -62,10 +69,12 @@ def _refined(
     splined = isinstance(outline, SplineLoop)
     held = len(outline.vector) if splined else POLES[0]
     odds = 0.0 if splined else LAST - rarity(outline)
-    least = -np.inf if splined else odds - price(RICH - held, count, together)
+    least = odds - price(RICH - held, count, together)
     follows, _ = tried_free(points, model, Change(_redrawn(model, place, RICH), runs, least), together)
-    if follows is None:  # it does not gain what the stiffest spline would cost
-        return model
+    if follows is None:
+        if not splined:  # it does not gain what the stiffest spline would cost
+            return model
+        follows = model
     missed = 0
     for poles in (poles for poles in POLES if poles >= held):
         more = poles - held

@@ -73,6 +73,7 @@ def tried_free(
     held, before = evaluate(near, joined(model)), change.before(model)
     early = promise(held, before, noise=True) / together > MUCH
     owed = credit() if early else 0.0
+    best = -np.inf, candidate
     for k, steps in enumerate((STEPS[0], *STEPS, SETTLED)):
         if k:
             candidate = fit_density(points, candidate, 1)
@@ -80,10 +81,12 @@ def tried_free(
         now, _ = climbed(now, steps, runs=change.around, noise=k > 0, most=MOST_NOISE, enough=enough)
         candidate = now.model
         gain = value(candidate) - least - owed
+        if gain > best[0]:
+            best = gain, candidate
         left = BEYOND * promise(now, change.around, noise=True) / together
         if gain < -PATIENCE or gain + left < -BLURRED:
             return None, gain
-    candidate = natural_joins(candidate)
+    candidate = natural_joins(best[1])
     gain = value(candidate) - least - owed
     if gain > 0 and not early:
         gain -= credit()

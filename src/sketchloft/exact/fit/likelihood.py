@@ -160,9 +160,9 @@ def losses(points: Floats, model: ExactModel) -> Floats:
     return -np.log(inside + model.stray / model.density.at(points))
 
 
-def scores(points: Floats, model: ExactModel) -> Floats:
+def scores(points: Floats, model: ExactModel, *, caps: bool = True) -> Floats:
     """(n, p) what each of the points (n, 3) says of each parameter: the slopes of its log likelihood."""
-    ratio, _ = evaluate(points, model).each(np.ones(_parameters(model), dtype=bool))
+    ratio, _ = evaluate(points, model, caps=caps).each(np.ones(_parameters(model), dtype=bool))
     found = np.empty_like(ratio)
     found[_upwards(points)] = ratio
     return found

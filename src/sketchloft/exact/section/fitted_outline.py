@@ -21,7 +21,7 @@ from sketchloft.shapes.spline import resampled
 from sketchloft.stack import Run, Stack
 from sketchloft.wall.swept import Swept
 
-__all__ = ["FittedOutline", "Loop", "fitted_outline", "loop_beside"]
+__all__ = ["FittedOutline", "Loop", "fitted_outline", "loop_beside", "section_model"]
 
 MOST_POINTS = 3000
 BESIDE = 4.0
@@ -131,7 +131,7 @@ def fitted_outline(loop: Loop, outline: Outline, least: float) -> FittedOutline:
         Evidence at the noise that all begin with below which the noise is not fitted.
     """
     points = np.column_stack([loop.near, np.zeros(len(loop.near))])
-    start = _model(loop, outline)
+    start = section_model(loop, outline)
     now = _settled(points, start, loop.together)
     value = settled = evidence(now, loop.together)
     if settled > least:
@@ -150,7 +150,8 @@ def _holds(loop: Loop, outline: Outline) -> bool:
     return not len(places) or bool((depth < 0).mean() <= LOST)
 
 
-def _model(loop: Loop, outline: Outline) -> ExactModel:
+def section_model(loop: Loop, outline: Outline) -> ExactModel:
+    """Model of a section with one outline, and the points and the noise of its loop."""
     wall = Swept(outline, 0.0, np.zeros(2), np.zeros(2))
     stack = Stack(np.array([-0.5, 0.5]), (Run((wall,), int(loop.hole)),))
     density = Density(np.array([np.log(len(loop.near) / loop.area), 0.0, 0.0, 0.0]))

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from sketchloft.outline.circle import Circle
 from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.outline import Arc, Outline
-from sketchloft.outline.placed_polygons import Rectangle, RoundedRectangle
+from sketchloft.outline.placed_polygons import Rectangle, RegularPolygon, RoundedRectangle
 from sketchloft.outline.polygons import LineArc, Polygon, odd_corners
 from sketchloft.outline.rectilinear import RectilinearPolygon
 from sketchloft.outline.rounded_polygon import RoundedPolygon
@@ -24,6 +24,8 @@ RARE = 6.0
 """Log odds against other outlines of up to six edges, and against a rectangle with one radius, a star and one
 of right corners, of which there are more to be taken for one by chance; one more for each further line, two
 for each arc."""
+REGULAR = 1.0
+"""The same against a regular polygon: its one size leaves it little to be taken for one by chance."""
 ODD = 3.0
 """Log odds against each end of an arc at an odd angle."""
 LAST = 12.0
@@ -38,6 +40,8 @@ def rarity(outline: Outline) -> float:
         return LAST
     if isinstance(outline, (RectilinearPolygon, RoundedRectangle, Star)):
         return RARE
+    if isinstance(outline, RegularPolygon):
+        return REGULAR
     edges = sum(2.0 if isinstance(edge, Arc) else 1.0 for edge in outline.edges())
     if isinstance(outline, LineArc):
         edges += ODD * odd_corners(outline)

@@ -16,8 +16,10 @@ from sketchloft.exact.section.further_outlines import (
     likeliest,
     nearly_free,
 )
+from sketchloft.exact.section.roundness import seems_round
 from sketchloft.exact.section.section_contours import contours
 from sketchloft.outline.candidates import circle_of, ellipse_of, rectangle_like, rectangle_of, spline_of
+from sketchloft.outline.circle import Circle
 from sketchloft.outline.outline import Outline
 from sketchloft.workers import ALONE, Workers
 
@@ -26,11 +28,6 @@ __all__ = ["SectionShape", "recognise_section"]
 HOPELESS = 150.0, 25.0
 """An outline that is so much worse than another before the noise is fitted, in log likelihood and at least in
 evidence, is given up."""
-WAVES = np.arange(2, 13)
-EVEN = 4.0
-"""Power of a wave around a circle that chance exceeds once in exp(4) times."""
-TELLING = 12.0
-"""Independent points beside a circle at least, for their evenness to tell anything."""
 
 
 @dataclass(frozen=True)
@@ -87,11 +84,12 @@ def _best(loop: Loop, ring: Floats, *, rough: bool, workers: Workers) -> Outline
         return [one.value for one in found]
 
     free, circle, ellipse = attempt(spline_of(ring, STIFF), circle_of(ring), ellipse_of(ring))
-    if circle > max(free, ellipse) and _even(loop, tried[1][1]):
+    round_one = tried[1][1]
+    if circle > max(free, ellipse) and isinstance(round_one, Circle) and seems_round(loop, round_one):
         # Strokes fill the corners of a rectangle less evenly than the rest.
         squares = [] if loop.together == 1 else [rectangle_of(ring), rectangle_like(ellipse_of(ring))]
         if circle > max(attempt(*squares), default=-np.inf):
-            return tried[1][1]
+            return round_one
     if rough:
         attempt(rectangle_of(ring))
         return likeliest(tried)
@@ -99,19 +97,3 @@ def _best(loop: Loop, ring: Floats, *, rough: bool, workers: Workers) -> Outline
     if nearly_free(tried):
         attempt_splines(attempt, tried, ring)
     return likeliest(tried)
-
-
-def _even(loop: Loop, outline: Outline) -> bool:
-    """Whether points just inside and outside an outline lie evenly around it, as around a circle.
-
-    Notes
-    -----
-    Corners and flats show in the angles of the points beside the outline, whose Fourier coefficients
-    have unit variance by chance (Rayleigh's test); of points that go together, that much more.
-    """
-    near, together = loop.near, loop.together
-    foot = outline.foot(near)
-    arms = near[np.abs(foot.distance) < loop.blur] - outline.boundary(24).points.mean(axis=0)
-    angles = np.arctan2(arms[:, 1], arms[:, 0])
-    powers = np.abs(np.exp(1j * WAVES[:, None] * angles).sum(axis=1)) ** 2 / max(len(angles), 1)
-    return len(angles) > TELLING * together and bool((powers < EVEN * together).all())

@@ -19,6 +19,7 @@ from sketchloft.outline.polygons import LineArc, Polygon
 from sketchloft.outline.rectilinear import RectilinearPolygon, rectilinear_of, with_a_step_less
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import SplineLoop, spline_loop
+from sketchloft.outline.stadium import Stadium, stadium_like
 from sketchloft.outline.star import Star, star_in, star_of
 from sketchloft.periodic_cubic import curve_at, locate, pieces
 from sketchloft.ring import ring_area, ring_depth
@@ -45,7 +46,8 @@ OUTLINES: dict[str, Outline] = {
     "ellipse, axes swapped": Ellipse(CENTRE, 0.5, 1.2, 0.7),
     "rectangle": Rectangle(CENTRE, 2.0, 1.0, 0.4),
     "rounded rectangle": RoundedRectangle(CENTRE, 1.0, 2.0, 0.4, 0.2),
-    "stadium": RoundedRectangle(CENTRE, 2.0, 1.0, 0.4, 0.5),
+    "rounded rectangle, a stadium": RoundedRectangle(CENTRE, 2.0, 1.0, 0.4, 0.5),
+    "stadium": Stadium(CENTRE, 1.0, 0.5, 0.4),
     "regular polygon": RegularPolygon(CENTRE, 1.0, 0.3, 5),
     "star": Star(CENTRE, 1.0, 0.45, 0.3, 5),
     "circle of four even arcs": DividedCircle(CENTRE, 1.1, 0.3, 0.0),
@@ -156,9 +158,16 @@ def test_the_edges_close_up_and_lie_on_the_outline(outline: Outline) -> None:
 
 
 def test_known_areas_and_edges() -> None:
-    stadium = OUTLINES["stadium"]
+    stadium = OUTLINES["rounded rectangle, a stadium"]
     assert stadium.area == pytest.approx(1 + np.pi / 4, rel=1e-12)
     assert [type(edge) for edge in stadium.edges()] == [Arc, Segment, Arc, Arc, Segment, Arc]
+    slot = Stadium(CENTRE, 1.0, 0.5, 0.4)
+    assert slot.area == pytest.approx(stadium.area, rel=1e-12)
+    assert [type(edge) for edge in slot.edges()] == [Segment, Arc, Segment, Arc]
+    np.testing.assert_allclose(
+        slot.foot(around(200)).distance, stadium.foot(around(200)).distance, atol=1e-12
+    )
+    np.testing.assert_allclose(stadium_like(slot.rounded).vector, slot.vector, atol=1e-12)
     assert OUTLINES["polygon"].area == pytest.approx(3, rel=1e-12)
     # Five convex corners lose what the one that is not convex gains.
     assert OUTLINES["rounded polygon"].area == pytest.approx(3 - 4 * 0.04 * (1 - np.pi / 4), rel=1e-12)

@@ -30,6 +30,7 @@ from sketchloft.outline.polygons import LineArc, Polygon
 from sketchloft.outline.rectilinear import RectilinearPolygon
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import spline_loop
+from sketchloft.outline.stadium import Stadium
 from sketchloft.outline.star import Star
 from sketchloft.pipeline import Params, reconstruct
 from sketchloft.plan.from_model import planned_from_model
@@ -65,6 +66,7 @@ OUTLINES: list[Outline] = [
     Ellipse(CENTRE, 0.3, 0.2, 0.7),
     Rectangle(CENTRE, 0.4, 0.3, 0.4),
     RoundedRectangle(CENTRE, 0.4, 0.3, 0.4, 0.05),
+    Stadium(CENTRE, 0.3, 0.1, 0.4),
     RegularPolygon(CENTRE, 0.3, 0.2, 6),
     Star(CENTRE, 0.4, 0.2, 0.1, 5),
     RectilinearPolygon(np.array([-0.2, 0.3, 0.2, 0.1, 0.05, -0.3]), 0.4),

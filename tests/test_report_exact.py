@@ -32,6 +32,7 @@ from sketchloft.outline.placed_polygons import Rectangle, RegularPolygon, Rounde
 from sketchloft.outline.polygons import LineArc, Polygon
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import spline_loop
+from sketchloft.outline.stadium import Stadium
 from sketchloft.report.axial_counts import axial_counts
 from sketchloft.report.axial_profile_figure import axial_profile_figure
 from sketchloft.report.cuts_figure import cuts_figure, likely_strays
@@ -380,6 +381,7 @@ OUTLINES: list[Outline] = [
     Ellipse(np.array([1.0, 2]), 1.0, 3.0, 0.4),
     Rectangle(np.array([1.0, 2]), 3.0, 1.0, 0.4),
     RoundedRectangle(np.array([1.0, 2]), 3.0, 2.0, 0.4, 0.5),
+    Stadium(np.array([1.0, 2]), 3.0, 1.0, 0.4),
     RegularPolygon(np.array([1.0, 2]), 3.0, 0.4, 5),
     Polygon(SQUARE),
     RoundedPolygon(SQUARE, 0.3),
@@ -464,6 +466,7 @@ def test_dimensions_of_walls() -> None:
     )
     kinds = [list(named(Swept(outline, 0.0, ORIGIN, ORIGIN))) for outline in OUTLINES]
     assert kinds[5:] == [
+        ["radius", "between the arcs", "turned by"],
         ["corners", "radius to the corners", "turned by"],
         ["corners", "area"],
         ["corners", "fillets", "area"],

@@ -30,6 +30,7 @@ from sketchloft.outline.outline import Outline
 from sketchloft.outline.placed_polygons import Rectangle, RegularPolygon, RoundedRectangle
 from sketchloft.outline.polygons import LineArc, Polygon
 from sketchloft.outline.spline_loop import spline_loop
+from sketchloft.outline.stadium import Stadium
 from sketchloft.stack import Run, Stack, Wall
 from sketchloft.stack_distance import distance_from_stack
 from sketchloft.stack_volume import stack_volume
@@ -175,6 +176,10 @@ CASES: dict[str, tuple[Stack, dict[str, int]]] = {
     "rounded rectangle": (
         stack([0, 0.4], swept(RoundedRectangle(AXIS, 0.8, 0.6, 0.2, 0.1))),
         {"CylindricalSurface": 4, "Plane": 6},
+    ),
+    "stadium": (
+        stack([0, 0.4], swept(Stadium(AXIS, 0.5, 0.2, 0.3))),
+        {"CylindricalSurface": 2, "Plane": 4},
     ),
     "rounded and tapered": (
         stack([0, 0.4], swept(RoundedRectangle(AXIS, 0.8, 0.6, 0.2, 0.1), taper=-0.7)),

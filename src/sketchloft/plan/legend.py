@@ -40,6 +40,7 @@ LEGEND = """\
 #     ellipse            centre, major_radius, minor_radius, angle
 #     rectangle          centre, width, depth, angle of the width from x
 #     rounded rectangle  centre, width, depth, angle, corner_radius
+#     stadium            centre, length between the centres of its arcs, radius, angle of the length from x
 #     regular polygon    centre, radius to the corners, angle of the first corner, sides
 #     star               centre, radius to the tips, inner_radius to the corners between them, angle of the
 #                        first tip, tips

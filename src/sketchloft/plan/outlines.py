@@ -10,6 +10,7 @@ from sketchloft.outline.polygons import LineArc, Polygon
 from sketchloft.outline.rectilinear import RectilinearPolygon
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import spline_loop
+from sketchloft.outline.stadium import Stadium
 from sketchloft.outline.star import Star
 from sketchloft.plan.field import Number
 from sketchloft.plan.form import Form, form
@@ -54,6 +55,7 @@ OUTLINES: dict[str, Form] = {
     ),
     "rectangle": form(Rectangle, *SIDES),
     "rounded rectangle": form(RoundedRectangle, *SIDES, CORNER_RADIUS),
+    "stadium": form(Stadium, CENTRE, Number("length", "length", sign="positive"), RADIUS, ANGLE),
     "regular polygon": form(
         RegularPolygon, CENTRE, RADIUS, ANGLE, Number("sides", "sides", "count", fitted="no", least=3)
     ),

@@ -15,6 +15,7 @@ from sketchloft.outline.placed_polygons import Rectangle, RegularPolygon, Rounde
 from sketchloft.outline.polygons import LineArc, Polygon
 from sketchloft.outline.rectilinear import RectilinearPolygon
 from sketchloft.outline.rounded_polygon import RoundedPolygon
+from sketchloft.outline.stadium import Stadium
 from sketchloft.outline.star import Star
 from sketchloft.stack import Wall
 from sketchloft.wall.filleted import Filleted
@@ -137,6 +138,9 @@ def _outline(outline: Outline, size: float, turned: float) -> tuple[Dimension, .
         case RoundedRectangle(_, width, depth, angle, radius):
             fillets = Dimension("fillets", size * radius)
             return (*sides(width, depth), fillets, _turn(angle + turned, np.pi))
+        case Stadium(_, length, radius, angle):
+            between = Dimension("between the arcs", size * length)
+            return (Dimension("radius", size * radius), between, _turn(angle + turned, np.pi))
     return _cornered(outline, size, turned)
 
 

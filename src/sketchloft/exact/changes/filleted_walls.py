@@ -14,6 +14,7 @@ from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.surgery import with_runs
 from sketchloft.outline.candidates import rectangle_of
 from sketchloft.outline.placed_polygons import Rectangle, RoundedRectangle
+from sketchloft.outline.stadium import Stadium
 from sketchloft.stack import Run, Wall
 from sketchloft.wall.filleted import ENDS, Filleted
 from sketchloft.wall.swept import Swept
@@ -93,7 +94,7 @@ def _chains(model: ExactModel) -> Iterator[tuple[range, Rectangle | RoundedRecta
         wall = run.walls[0]
         if len(run.walls) > 1 or not isinstance(wall, Swept):
             continue
-        outline = wall.outline
+        outline = wall.outline.rounded if isinstance(wall.outline, Stadium) else wall.outline
         if not isinstance(outline, (Rectangle, RoundedRectangle)):
             rectangle = rectangle_of(outline.boundary(AROUND).points)
             if outline.area < FILLED * rectangle.area:

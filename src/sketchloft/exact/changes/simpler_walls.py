@@ -9,7 +9,7 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.exact.changes.turning import turning
-from sketchloft.outline.candidates import circle_of, ellipse_of, polygons
+from sketchloft.outline.candidates import circle_of, ellipse_of, polygons, rectangle_of
 from sketchloft.outline.circle import Circle
 from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.outline import Outline
@@ -18,6 +18,7 @@ from sketchloft.outline.polygons import LineArc, Polygon, corner_areas
 from sketchloft.outline.rectilinear import RectilinearPolygon, rectilinear_of, with_a_step_less
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import SplineLoop
+from sketchloft.outline.stadium import Stadium, stadium_like
 from sketchloft.outline.star import Star, star_of
 from sketchloft.stack import Wall
 from sketchloft.wall.dome import taper_and_bow
@@ -110,10 +111,12 @@ def _form(profile: Profile) -> tuple[bool, bool]:
 
 def _outlines_like(outline: Outline) -> Iterator[Outline]:
     ring = outline.boundary(96).points
-    if isinstance(outline, (Ellipse, LineArc, SplineLoop, RegularPolygon, RoundedRectangle)):
+    if isinstance(outline, (Ellipse, LineArc, SplineLoop, RegularPolygon, RoundedRectangle, Stadium)):
         yield circle_of(ring)
     if isinstance(outline, (LineArc, SplineLoop)):
         yield ellipse_of(ring)
+    if isinstance(outline, (LineArc, RoundedRectangle)):
+        yield stadium_like(outline if isinstance(outline, RoundedRectangle) else rectangle_of(ring))
     if isinstance(outline, RoundedRectangle):
         yield Rectangle(outline.centre, outline.width, outline.height, outline.angle)
     if isinstance(outline, Rectangle):

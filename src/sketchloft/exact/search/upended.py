@@ -18,6 +18,7 @@ from sketchloft.exact.model.surgery import with_run
 from sketchloft.exact.search.box_along import box_along, box_sizes, evenly_filled
 from sketchloft.outline.candidates import rectangle_of
 from sketchloft.outline.placed_polygons import Rectangle, RoundedRectangle
+from sketchloft.outline.stadium import Stadium
 from sketchloft.stack import Run, Stack, Wall
 from sketchloft.wall.swept import Swept
 from sketchloft.workers import ALONE, Workers
@@ -91,7 +92,7 @@ def _stood_otherwise(points: Floats, model: ExactModel) -> list[tuple[ExactModel
     if others or len(run.walls) > 1 or not isinstance(wall, Swept) or wall.free:
         return []
     outline = wall.outline
-    if isinstance(outline, RoundedRectangle):
+    if isinstance(outline, (RoundedRectangle, Stadium)):
         return []
     box = outline if isinstance(outline, Rectangle) else rectangle_of(outline.boundary(AROUND).points)
     if outline.area < FILLED * box.area:

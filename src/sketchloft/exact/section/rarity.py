@@ -12,6 +12,7 @@ from sketchloft.outline.polygons import LineArc, Polygon, odd_corners
 from sketchloft.outline.rectilinear import RectilinearPolygon
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import SplineLoop
+from sketchloft.outline.stadium import Stadium
 from sketchloft.outline.star import Star
 from sketchloft.stack import Wall
 from sketchloft.wall.swept import Swept
@@ -38,7 +39,7 @@ def rarity(outline: Outline) -> float:
     """Log odds against an outline before the points are seen."""
     if isinstance(outline, SplineLoop):
         return LAST
-    if isinstance(outline, (RectilinearPolygon, RoundedRectangle, Star)):
+    if isinstance(outline, (RectilinearPolygon, RoundedRectangle, Stadium, Star)):
         return RARE
     if isinstance(outline, RegularPolygon):
         return REGULAR

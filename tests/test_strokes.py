@@ -16,6 +16,7 @@ from sketchloft.outline.fitted_loop import fitted_loop
 from sketchloft.outline.outline import Outline
 from sketchloft.outline.placed_polygons import Rectangle, RoundedRectangle
 from sketchloft.outline.rectilinear import RectilinearPolygon
+from sketchloft.outline.stadium import Stadium
 from sketchloft.stack import Run, Stack, Wall
 from sketchloft.stack_volume import stack_volume
 from sketchloft.wall.filleted import Filleted
@@ -36,6 +37,7 @@ def prism(outline: Outline, twist: float = 0.0) -> Swept:
 SQUARE = Rectangle(ORIGIN, 6.0, 6.0, 0.3)
 ROUNDED = RoundedRectangle(ORIGIN, 6.0, 4.0, 0.2, 0.9)
 STAIRS = RectilinearPolygon(np.array([-3.0, 4.0, 3.0, 2.0, 1.5, 0.0, 0.0, -2.0, -1.5, -4.0]), 0.3)
+BEAN = (3 + 0.9 * np.cos(2 * ANGLES) - 0.5 * np.sin(ANGLES))[:, None] * AROUND * [1.0, 0.8]
 WALLS: dict[str, tuple[Wall, float]] = {
     "square to round": (Ruled(SQUARE, DividedCircle(ORIGIN, 2.6, 0.3 + np.pi / 4, 0.0), 0.0, 6.0), 6.0),
     "round to square": (Ruled(DividedCircle(ORIGIN, 2.0, 0.3 + np.pi / 4, 0.0), SQUARE, 0.0, 6.0), 6.0),
@@ -43,6 +45,9 @@ WALLS: dict[str, tuple[Wall, float]] = {
         Ruled(SQUARE, DividedCircle(ORIGIN, 2.0, 0.3 + np.pi / 4, 0.0), 0.0, 7.0),
         7.0,
     ),
+    "hopper": (Ruled(Rectangle(ORIGIN, 6.0, 3.0, 0.0), Rectangle(ORIGIN, 3.0, 2.4, 0.0), 0.0, 6.0), 6.0),
+    "slot": (prism(Stadium(ORIGIN, 6.0, 2.0, 0.3)), 2.5),
+    "bean": (prism(fitted_loop(BEAN, 40)), 5.0),
     "edges rounded": (prism(ROUNDED), 5.0),
     "all edges rounded": (
         Filleted(RoundedRectangle(ORIGIN, 6.0, 4.0, 0.2, 0.9), None, "both", 0.0, 5.0),
@@ -57,6 +62,9 @@ WALLS: dict[str, tuple[Wall, float]] = {
 KINDS = {
     "square to round": "ruled",
     "round to square": "ruled",
+    "hopper": "ruled",
+    "slot": "stadium",
+    "bean": "spline",
     "edges rounded": "rounded rectangle",
     "all edges rounded": "filleted prism",
     "one face rounded": "filleted prism",

@@ -21,6 +21,8 @@ Places = tuple[Floats, Floats, Floats]
 
 SAMPLES = np.linspace(-0.9, 0.9, 8)
 """Parameters of an edge from which the foot of a point is searched."""
+NEAR = float(SAMPLES[-2:].mean())
+"""Parameter beyond which a foot is next to a corner."""
 NEWTON = 4
 BLOCK = 4096
 LEVELS = gauss(4)
@@ -98,11 +100,14 @@ class Ruled:
         edge, tau = self._nearest(points)
         tau = self._closest(xy, t, edge, tau)
         count = len(self.bottom.chain()[1])
-        corner = np.flatnonzero(np.abs(tau) == 1.0)
-        beside = (edge[corner] + np.where(tau[corner] > 0, 1, -1)) % count
-        there = self._closest(xy[:, corner], t[corner], beside, -tau[corner] * SAMPLES[-1])
-        better = np.abs(there) < 1.0
-        edge[corner[better]], tau[corner[better]] = beside[better], there[better]
+        # Next to a corner the nearest sample may be on the edge that is not nearest.
+        near = np.flatnonzero(np.abs(tau) > NEAR)
+        beside = (edge[near] + np.where(tau[near] > 0, 1, -1)) % count
+        there = self._closest(xy[:, near], t[near], beside, -np.sign(tau[near]) * SAMPLES[-1])
+        _, (here, _, _) = self._places(t[near], edge[near], tau[near])
+        _, (other, _, _) = self._places(t[near], beside, there)
+        better = np.hypot(*(other - xy[:, near])) < np.hypot(*(here - xy[:, near]))
+        edge[near[better]], tau[near[better]] = beside[better], there[better]
         (below, above), (at, d1, d2) = self._places(t, edge, tau)
         speed = np.maximum(np.hypot(*d1), TINY)
         across = np.array([d1[1], -d1[0]]) / speed

@@ -15,11 +15,12 @@ from sketchloft.outline.polygons import Polygon
 from sketchloft.stack import Run, Stack, Wall
 from sketchloft.wall.swept import Swept
 
-__all__ = ["flush"]
+__all__ = ["BESIDE", "flush", "polygon_between"]
 
 NOISES, SHELLS = 4.0, 100.0
 """Sides within so many noise deviations and expected empty shells of each other may be one."""
 BESIDE = 8.0
+"""Noise deviations beside the walls within which points tell what a common plane costs."""
 FLAT = 0.05
 """Sine of the turn at a corner below which it is not known where the sides meet."""
 
@@ -131,7 +132,7 @@ def _joined(model: ExactModel, sides: list[Side], pairs: list[tuple[int, int]]) 
     for side, name in zip(sides, group.tolist(), strict=True):
         lines.setdefault((side.run, side.wall), []).append(common.get(name, side.line))
     moved = {(sides[k].run, sides[k].wall) for k in np.flatnonzero(np.isin(group, list(joined)))}
-    polygons = {place: _polygon(lines[place]) for place in moved}
+    polygons = {place: polygon_between(lines[place]) for place in moved}
     if None in polygons.values():
         return None
     runs = tuple(
@@ -157,7 +158,7 @@ def _common(sides: list[Side]) -> Line:
     return normal, float(weights @ (middles @ normal) / weights.sum())
 
 
-def _polygon(lines: list[Line]) -> Polygon | None:
+def polygon_between(lines: list[Line]) -> Polygon | None:
     """Polygon with its sides on lines, in their order; None where two neighbours hardly meet."""
     vertices = []
     for (n0, c0), (n1, c1) in zip(lines[-1:] + lines[:-1], lines, strict=True):

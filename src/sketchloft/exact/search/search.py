@@ -21,6 +21,7 @@ from sketchloft.exact.model.soundness import sound
 from sketchloft.exact.search.absorbed import without_absorbed
 from sketchloft.exact.search.as_capsule import as_capsule
 from sketchloft.exact.search.coaxial import coaxial
+from sketchloft.exact.search.flat_sides import flat_sides
 from sketchloft.exact.search.flush import flush
 from sketchloft.exact.search.resection import resectioned
 from sketchloft.exact.search.stray_strokes import counted, stray_strokes
@@ -136,6 +137,7 @@ def search(
     model = thicker(without_gap(model, least_noise(model, len(points))), 1 / every)
     model = flush(sample @ turn, model, together)
     value = worth(sample @ turn, model, together, len(start.sample)) + strays.worth + pulling.worth
+    model = flat_sides(sample @ turn, model, together)  # what that costs does not count against it
     blurred = replace(model, sigma=max(model.sigma, AT_LEAST))
     left = misfit(sample @ turn, blurred, range(len(model.stack.runs)), together)
     model, turn = counted(thicker(model, every), len(start.points) - len(points)), start.settling @ turn

@@ -23,8 +23,10 @@ __all__ = ["searched"]
 
 BLURRED = 0.006
 """Noise, as a share of the size, above which the walls of a cloud of strokes may be the wrong ones."""
+ALONE_BLURRED = 0.005
+"""The same of one run of stiff walls, which a thing that is seen from its side may be taken for."""
 HOPELESS = 0.0095
-"""The same of a first stack, above which a search from it hardly ever ends well."""
+"""That of a first stack, above which a search from it hardly ever ends well."""
 WRONG = 15.0
 """Misfit above which those of an even cloud may be."""
 
@@ -118,7 +120,12 @@ def _clear(end: Found) -> bool:
     """Whether no other direction can be expected to explain more: nothing simpler, or no sharper walls."""
     if end.start.together == 1:
         return _simple(end.model) and end.misfit <= WRONG
-    return end.model.sigma < (BLURRED if _stiff(end.model) else CLEAR)
+    return end.model.sigma < (_blurred(end.model) if _stiff(end.model) else CLEAR)
+
+
+def _blurred(model: ExactModel) -> float:
+    """Noise above which the walls of a model may be the wrong ones."""
+    return ALONE_BLURRED if len(model.stack.runs) == 1 and _stiff(model) else BLURRED
 
 
 def _stiff(model: ExactModel) -> bool:
@@ -140,7 +147,7 @@ def _further(end: Found, others: list[Start]) -> list[Start]:
         return []
     if end.start.together == 1:
         return others[:1] if end.misfit > WRONG or _patched(end.model) else []
-    if end.model.sigma < BLURRED:
+    if end.model.sigma < _blurred(end.model):
         return []
     sharpest = min(others, key=lambda start: start.merged.sigma)
     return [others[0]] if others[0] is sharpest else [others[0], sharpest]

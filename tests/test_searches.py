@@ -71,3 +71,17 @@ def test_the_direction_of_an_end_is_that_of_the_model() -> None:
     cloud = sample_goal(GOALS["cylinder"], 4000, seed=3)
     body = _body(cloud)
     np.testing.assert_allclose(abs(body.vector[2]), 1, atol=1e-4)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [1, 2])
+def test_a_noisy_hopper_is_not_left_a_pile_of_prisms(seed: int) -> None:
+    """Seen from its side, which is where the likeliest direction is, as three runs with corners."""
+    rng = np.random.default_rng(seed)
+    box = rng.uniform([-3.0, -1.5, 0.0], [3.0, 1.5, 6.0], (30_000, 3))
+    shares = 1 - box[:, 2:] * np.array([1.5, 0.3]) / [18.0, 9.0]
+    inside = box[(np.abs(box[:, :2]) < shares * [3.0, 1.5]).all(axis=1)][:10_000]
+    body = _body(PointCloud.of(inside + 0.04 * rng.standard_normal(inside.shape)))
+    assert body.facts.faces == {"Plane": 6}
+    assert abs(body.vector[2]) > np.cos(np.radians(2))
+    assert body.facts.volume == pytest.approx(6 * (18 + 7.2 + 4 * 4.5 * 2.7) / 6, rel=0.02)

@@ -9,7 +9,7 @@ import numpy as np
 from sketchloft.cloud import Floats
 from sketchloft.exact.changes.change import CHAIN_GAIN, FREE_GAIN, Change
 from sketchloft.exact.model.exact_model import ExactModel
-from sketchloft.exact.model.joins import sole_profile
+from sketchloft.exact.model.joins import natural_joins, sole_profile
 from sketchloft.exact.model.surgery import with_runs, with_split
 from sketchloft.outline.circle import Circle
 from sketchloft.stack import Run
@@ -22,6 +22,9 @@ __all__ = ["capped", "round_ends"]
 HEIGHTS = 25
 SHORTEST = 0.2
 """Length of the cylinder between round ends at least, in its radius: what is shorter is a sphere."""
+BEYOND = 1 / 6
+"""How far the pole of half a sphere is beyond a flat end that was fitted to it, about, in its radius: with a
+third the volumes were the same."""
 SIDES = ((-1, 1), (-1,), (1,))
 
 
@@ -40,17 +43,27 @@ def round_ends(model: ExactModel) -> Iterator[Change]:
         if wall is None or isinstance(wall.profile, ArcProfile):
             continue
         free = isinstance(wall.profile, SplineProfile)
+        beyond = 0.0 if free else BEYOND
         radius = float(np.median(radius_at(wall.profile, np.linspace(low, high, HEIGHTS))[0]))
         for sides in SIDES:
             at_ends = (j == 0 or -1 not in sides) and (j == last or 1 not in sides)
             if at_ends and high - low > (len(sides) + SHORTEST) * radius:
-                heights, walls = capped(wall.centre, radius, (low, high), sides)
+                poles = low - beyond * radius * (-1 in sides), high + beyond * radius * (1 in sides)
+                heights, walls = capped(wall.centre, radius, poles, sides)
                 simpler = (CHAIN_GAIN if len(walls) > 2 else FREE_GAIN) if free else 0.0
-                split = with_split(model, j, heights, walls)
+                split = _reaching(with_split(model, j, heights, walls), poles, sides)
                 yield Change(split, range(j, j + len(walls)), -simpler, free=free)
     for end, j, side in ((0, 1, -1), (last, last - 1, 1)):
         if last > 0 and _bulges(model.stack.runs[end]):
             yield from _cap(model, j, side)
+
+
+def _reaching(model: ExactModel, poles: tuple[float, float], sides: tuple[int, ...]) -> ExactModel:
+    """The model with its ends at poles, on some sides."""
+    breaks = model.stack.breaks.copy()
+    for side, end, pole in ((-1, 0, poles[0]), (1, -1, poles[1])):
+        breaks[end] = pole if side in sides else breaks[end]
+    return natural_joins(model.between(breaks))
 
 
 def _bulges(run: Run) -> bool:

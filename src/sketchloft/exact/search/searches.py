@@ -69,9 +69,9 @@ def searched(
     it is hardly the right one. Only where its end leaves something to wish for, more is looked at, which
     takes longer: the same direction cut more finely, where strokes leave its walls a little blurred; and the
     first stacks along other directions. Then there is a search from the best of these, and others from the
-    next one, where the points have something against its walls or a free loft beside other runs hides what
-    they have; and from the next and the sharpest, where strokes leave its walls blurred. Each end with a free
-    loft is followed by one without.
+    next one, where the points have something against its walls, or a free loft beside other runs hides what
+    they have, or all runs have corners; and from the next and the sharpest, where strokes leave its walls
+    blurred. Each end with a free loft is followed by one without.
     """
     look = partial(search, tilt=bool(candidates), progress=progress, workers=workers)
     progress("runs")
@@ -146,7 +146,7 @@ def _further(end: Found, others: list[Start]) -> list[Start]:
     if not others:
         return []
     if end.start.together == 1:
-        return others[:1] if end.misfit > WRONG or _patched(end.model) else []
+        return others[:1] if end.misfit > WRONG or _patched(end.model) or _terraced(end.model) else []
     if end.model.sigma < _blurred(end.model):
         return []
     sharpest = min(others, key=lambda start: start.merged.sigma)
@@ -156,6 +156,11 @@ def _further(end: Found, others: list[Start]) -> list[Start]:
 def _patched(model: ExactModel) -> bool:
     """Whether a free loft lies beside other runs, as it may where a simpler thing is seen from its side."""
     return len(model.stack.runs) > 1 and _has_loft(model)
+
+
+def _terraced(model: ExactModel) -> bool:
+    """Whether there are several runs and none is round, as where slopes are seen from their side."""
+    return len(model.stack.runs) > 1 and not any(isinstance(wall, Revolved) for wall in model.stack.walls)
 
 
 def _has_loft(model: ExactModel) -> bool:

@@ -25,7 +25,7 @@ RARE = 6.0
 """Log odds against other outlines of up to six edges, and against a rectangle with one radius, a star and one
 of right corners, of which there are more to be taken for one by chance; one more for each further line, two
 for each arc."""
-REGULAR = 1.0
+REGULAR = 2.0
 """The same against a regular polygon: its one size leaves it little to be taken for one by chance."""
 ODD = 3.0
 """Log odds against each end of an arc at an odd angle."""

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.exact.fit.likelihood import beside_walls, value_of
 from sketchloft.exact.fit.schwarz import price
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.surgery import with_wall
-from sketchloft.exact.search.flush import BESIDE, polygon_between
+from sketchloft.exact.search.as_many_as_pay import as_many_as_pay, telling
+from sketchloft.exact.search.flush import polygon_between
 from sketchloft.outline.chain import chords, outward
 from sketchloft.wall.ruled import Ruled
 
@@ -40,23 +41,24 @@ def flat_sides(points: Floats, model: ExactModel, together: float) -> ExactModel
     about its middle; that takes a parameter away, so that it may cost what one is worth by Schwarz's
     criterion.
     """
-    near = points[beside_walls(points, model, BESIDE * model.sigma)]
-    value, each = value_of(near, model), price(1, len(points), together)
-    for j, run in enumerate(model.stack.runs):
-        for i, wall in enumerate(run.walls):
-            if not isinstance(wall, Ruled):
-                continue
-            sides, flat = _nearly_flat(wall), list[int]()
-            whole = model
-            for more in [sides, *([side] for side in sides)] if sides else []:
-                flatter = _flattened(wall, flat + more)
-                if flatter is None or len(flat) == len(sides):
-                    continue
-                candidate = with_wall(whole, j, i, flatter)
-                if (value - value_of(near, candidate)) / together < each * len(flat + more):
-                    model, flat = candidate, flat + more
-            value = value_of(near, model) if flat else value
+    places = [
+        (j, i, wall)
+        for j, run in enumerate(model.stack.runs)
+        for i, wall in enumerate(run.walls)
+        if isinstance(wall, Ruled) and _nearly_flat(wall)
+    ]
+    near = telling(points, model) if places else points[:0]
+    worth = together * price(1, len(points), together)
+    for j, i, wall in places:
+        model = as_many_as_pay(
+            near, model, _nearly_flat(wall), worth, partial(_with_flat, model, (j, i), wall)
+        )
     return model
+
+
+def _with_flat(model: ExactModel, place: tuple[int, int], wall: Ruled, flat: list[int]) -> ExactModel | None:
+    flatter = _flattened(wall, flat)
+    return None if flatter is None else with_wall(model, *place, flatter)
 
 
 def _nearly_flat(wall: Ruled) -> list[int]:

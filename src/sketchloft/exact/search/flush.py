@@ -3,24 +3,24 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.exact.fit.expected import empty_shell
-from sketchloft.exact.fit.likelihood import beside_walls, value_of
+from sketchloft.exact.fit.schwarz import price
 from sketchloft.exact.model.exact_model import ExactModel, model_of
+from sketchloft.exact.search.as_many_as_pay import as_many_as_pay, telling
 from sketchloft.outline.outline import Segment
 from sketchloft.outline.polygons import Polygon
 from sketchloft.stack import Run, Stack, Wall
 from sketchloft.wall.swept import Swept
 
-__all__ = ["BESIDE", "flush", "polygon_between"]
+__all__ = ["flush", "polygon_between"]
 
 NOISES, SHELLS = 4.0, 100.0
 """Sides within so many noise deviations and expected empty shells of each other may be one."""
-BESIDE = 8.0
-"""Noise deviations beside the walls within which points tell what a common plane costs."""
 FLAT = 0.05
 """Sine of the turn at a corner below which it is not known where the sides meet."""
 
@@ -81,18 +81,10 @@ def flush(points: Floats, model: ExactModel, together: float) -> ExactModel:
         for b, other in enumerate(sides)
         if other.run == one.run + 1 and _near(one, other, reach)
     ]
-    near = points[beside_walls(points, model, BESIDE * model.sigma)]
-    value = value_of(near, model)
-    each = float(np.log(max(len(points) / together, 3.0)))
-    best, kept = model, list[tuple[int, int]]()
-    for more in [pairs, *([pair] for pair in pairs)] if pairs else []:
-        candidate = _joined(model, sides, kept + more)
-        loss = np.inf if candidate is None else (value - value_of(near, candidate)) / together
-        if candidate is not None and loss < each * len(kept + more):
-            best, kept = candidate, kept + more
-        if len(kept) == len(pairs):
-            break
-    return best
+    if not pairs:
+        return model
+    worth = together * price(2, len(points), together)
+    return as_many_as_pay(telling(points, model), model, pairs, worth, partial(_joined, model, sides))
 
 
 def _sides(model: ExactModel, j: int) -> list[Side]:

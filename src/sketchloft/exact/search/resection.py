@@ -13,7 +13,7 @@ from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.surgery import with_run
 from sketchloft.exact.section.rarity import COMMON, rarer
 from sketchloft.exact.section.segment_walls import segment_run
-from sketchloft.exact.start.first_stack import FEWEST
+from sketchloft.exact.start.first_stack import FEWEST, sketchy
 from sketchloft.exact.start.start import Start
 from sketchloft.stack import Wall
 from sketchloft.wall.profile import SplineProfile
@@ -32,7 +32,9 @@ BESIDE = 2.0
 def resectioned(
     points: Floats, model: ExactModel, start: Start, upright: float, workers: Workers = ALONE
 ) -> ExactModel:
-    """Find the sections of runs anew whose breaks or direction have moved since, and keep what pays.
+    """Find the sections of runs anew whose breaks or direction have moved since, or whose points are few.
+
+    What pays is kept.
 
     Parameters
     ----------
@@ -45,10 +47,15 @@ def resectioned(
     workers : Workers, optional
     """
     together = start.together
-    moved = [j for j in range(len(model.stack.runs)) if _moved(model, j, start.cuts, upright, together)]
+    among = {j: _between(points, model, j) for j in range(len(model.stack.runs))}
+    moved = [
+        j
+        for j, (inner, _) in among.items()
+        if len(inner) >= FEWEST
+        and (sketchy(inner, together) or _moved(model, j, start.cuts, upright, together))
+    ]
     settled = workers.each(_settled, [(points, model, j, together) for j in moved])
-    among = {j: _between(points, model, j) for j, done in zip(moved, settled, strict=True) if not done}
-    again = {j: (inner, ends) for j, (inner, ends) in among.items() if len(inner) >= FEWEST}
+    again = {j: among[j] for j, done in zip(moved, settled, strict=True) if not done}
     parts = [(inner, ends, model.sigma, together, model.density) for inner, ends in again.values()]
     for j, run in zip(again, workers.beside(segment_run, parts), strict=True):
         if run is not None and run.kinds != model.stack.runs[j].kinds:

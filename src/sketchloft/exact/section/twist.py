@@ -22,10 +22,10 @@ GAIN = 30.0
 """Squared deviations by which it must be above the moment that does not turn."""
 SHARPER = 60.0
 """Log likelihood that a turn must gain by sharpness: turns of round bars gain up to 45 by chance."""
-LOOK = 0.4
-"""Share of the largest turn at which either way is looked at."""
-STEPS = 6
-"""Further looks, by golden section and parabolas."""
+LOOKS = 8
+"""Turns that are looked at, up to the largest; between them, a parabola tells."""
+STRIDE = 3
+"""The one of these at which either way is looked at."""
 SLABS = 128
 """Stretches along the height, over which no section turns by much."""
 SEEN = 4.0
@@ -116,16 +116,18 @@ def sharpest_twist(plan: PlanView, heights: Floats, together: float = 1.0) -> fl
     Strokes fill a section so unevenly that its moments turn otherwise than its outline does, by as much as
     half. The outline is what makes points dense: their likelihood has one broad peak at its turn.
     """
-    from scipy.optimize import minimize_scalar  # noqa: PLC0415
 
-    def blurred(twist: float) -> float:
-        return -float(np.log(place_density(untwisted(plan, heights, twist).points)).sum())
+    def sharp(twist: float) -> float:
+        return float(np.log(place_density(untwisted(plan, heights, twist).points)).sum())
 
-    most = MOST_TURN / float(np.ptp(heights))
-    way = min((LOOK * most, -LOOK * most), key=blurred)
-    ends = (min(0.0, way / LOOK), max(0.0, way / LOOK))
-    found = minimize_scalar(blurred, bounds=ends, method="bounded", options={"maxiter": STEPS})
-    return float(found.x) if blurred(0.0) - found.fun > SHARPER * together else 0.0
+    step = MOST_TURN / float(np.ptp(heights)) / LOOKS
+    way = max((STRIDE * step, -STRIDE * step), key=sharp) / STRIDE
+    looks = [sharp(k * way) for k in range(LOOKS + 1)]
+    top = min(max(int(np.argmax(looks)), 1), LOOKS - 1)
+    before, here, after = looks[top - 1 : top + 2]
+    bend = 2 * here - before - after
+    found = way * (top + (float(np.clip((after - before) / (2 * bend), -1, 1)) if bend > 0 else 0.0))
+    return found if sharp(found) - looks[0] > SHARPER * together else 0.0
 
 
 def untwisted(plan: PlanView, heights: Floats, twist: float) -> PlanView:

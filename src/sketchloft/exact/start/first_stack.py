@@ -16,10 +16,12 @@ from sketchloft.exact.section.twist import seems_to_turn, sharpest_twist
 from sketchloft.stack import Run, Stack
 from sketchloft.workers import ALONE, Workers
 
-__all__ = ["first_stack"]
+__all__ = ["FEWEST", "first_stack", "sketchy"]
 
 FEWEST = 60
 """Points that a segment needs to have a section of its own."""
+FEW = 80
+"""Points that do not go together, in a segment, that tell a few kinds of sections apart only."""
 
 
 def first_stack(
@@ -37,7 +39,7 @@ def first_stack(
     """Model of the segments between cuts (k + 1,), from points (n, 3) without strays.
 
     Segments too thin or too empty for a section of their own are left to their neighbours. None where
-    no segment has a section. A rough one knows few kinds of sections.
+    no segment has a section. A rough one knows few kinds of sections, and so do segments of few points.
     """
     turn = _turn(points, together)
     segments, parts = [], []
@@ -46,11 +48,16 @@ def first_stack(
         inner = points[(points[:, 2] > low + margin) & (points[:, 2] < high - margin)]
         if high - low >= blur and len(inner) >= FEWEST:
             segments.append((low, high))
-            parts.append((inner, (low + margin, high - margin), sigma, together, density))
+            parts.append((inner, (low + margin, high - margin)))
+
+    def run_of(inner: Floats, ends: tuple[float, float], *, workers: Workers) -> Run | None:
+        few = rough or sketchy(inner, together)
+        return segment_run(inner, ends, sigma, together, density, rough=few, turn=turn, workers=workers)
+
     runs: list[Run] = []
     breaks: list[float] = []
     last = float(cuts[0])
-    found = workers.beside(segment_run, parts, rough=rough, turn=turn)
+    found = workers.beside(run_of, parts)
     for (low, high), run in zip(segments, found, strict=True):
         if run is not None:
             runs.append(run)
@@ -61,6 +68,11 @@ def first_stack(
     breaks[0] = float(cuts[0])
     stack = Stack(np.array([*breaks, float(cuts[-1])]), tuple(runs))
     return model_of(stack, sigma, density, 1.0 / space, space)
+
+
+def sketchy(points: Floats, together: float) -> bool:
+    """Whether points (n, 3) of a segment, of which so many go together, tell a few kinds of sections only."""
+    return len(points) < FEW * together
 
 
 def _turn(points: Floats, together: float) -> float:

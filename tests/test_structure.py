@@ -24,7 +24,8 @@ from sketchloft.exact.section.recognise_section import recognise_section
 from sketchloft.outline.circle import Circle
 from sketchloft.outline.divided_circle import DividedCircle
 from sketchloft.outline.ellipse import Ellipse
-from sketchloft.outline.placed_polygons import Rectangle
+from sketchloft.outline.outline import Outline
+from sketchloft.outline.placed_polygons import Rectangle, RegularPolygon
 from sketchloft.outline.polygons import Polygon
 from sketchloft.outline.rectilinear import rectilinear_of
 from sketchloft.outline.star import Star
@@ -257,6 +258,26 @@ def test_a_circle_is_no_hexagon(seed: int) -> None:
     shape = recognise_section(points[np.hypot(*points.T) < 0.3][:1500], 1.0)
     assert shape is not None
     assert shape.outlines[0].kind == "circle"
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize(
+    "hole",
+    [
+        Circle(np.array([0.05, 0.02]), 0.2),
+        Ellipse(np.array([0.05, 0.02]), 0.25, 0.15, 0.4),
+        Rectangle(np.array([0.05, 0.02]), 0.4, 0.25, 0.3),
+        RegularPolygon(np.array([0.05, 0.02]), 0.22, 0.2, 6),
+    ],
+    ids=lambda hole: hole.kind,
+)
+def test_a_hole_has_the_outline_that_was_cut(hole: Outline, seed: int) -> None:
+    points = np.random.default_rng(seed).uniform([-0.5, -0.35], [0.5, 0.35], (6000, 2))
+    shape = recognise_section(points[hole.foot(points).distance > 0], 1.0)
+    assert shape is not None
+    assert shape.holes == 1
+    assert [outline.kind for outline in shape.outlines] == ["rectangle", hole.kind]
+    assert np.abs(hole.foot(shape.outlines[1].boundary(80).points).distance).max() < 0.006
 
 
 # Domes and strokes, from the cloud to the solid

@@ -51,7 +51,8 @@ def sound(model: ExactModel) -> bool:
             return False
         ends = breaks[j] + (breaks[j + 1] - breaks[j]) * LEVELS
         at = ends[INNER]  # a sphere may end before its break does
-        if run.holes and (run.area(at) < LEFT * sum(_outer(run, at))).any():
+        pieces = _outer(run, at)  # none where the loop of a hole is looked at by itself
+        if run.holes and pieces and (run.area(at) < LEFT * sum(pieces)).any():
             return False
         if len(run.walls) > 1 and not all(_apart(run, height) for height in (at[0], at[-1])):
             return False

@@ -44,7 +44,10 @@ class Loop:
     near : (n, 2) float array
         Points that tell where it is.
     core : (m, 4) float array
-        Places inside whose points are not looked at, and the areas that they stand for, as in `ExactModel`.
+        Places inside whose points are not looked at, and the areas that they stand for, as in `ExactModel`;
+        for a hole, those in and around it, with areas that are taken away.
+    beyond : (k, 2) float array
+        Places of the section whose points are not looked at.
     area : float
         Inside, where the points are looked at.
     blur : float
@@ -57,6 +60,7 @@ class Loop:
 
     near: Floats
     core: Floats
+    beyond: Floats
     area: float
     blur: float
     together: float
@@ -110,13 +114,14 @@ def loop_beside(points: Floats, ring: Floats, blur: float, together: float, *, h
     rest = region.buffer(sign * -width)
     low, high = dense.min(axis=0) - width, dense.max(axis=0) + width
     cells = np.stack(np.meshgrid(*[np.linspace(a, b, LATTICE) for a, b in zip(low, high, strict=True)]), -1)
-    places = cells.reshape(-1, 2)
-    places = places[contains_xy(rest, places)]
+    cells = cells.reshape(-1, 2)
+    among = contains_xy(rest, cells)
+    places, beyond = cells[among], cells[among != hole]
     share = np.full(len(places), sign * float(rest.area) / max(len(places), 1))
     core = np.column_stack([places, np.zeros(len(places)), share])
     every = len(near) // MOST_POINTS + 1
     area = sign * float(region.area - rest.area)
-    return Loop(near[::every], core, area, blur, thinned(together, every), hole)
+    return Loop(near[::every], core, beyond, area, blur, thinned(together, every), hole)
 
 
 def fitted_outline(loop: Loop, outline: Outline, least: float) -> FittedOutline:
@@ -145,9 +150,8 @@ def fitted_outline(loop: Loop, outline: Outline, least: float) -> FittedOutline:
 
 def _holds(loop: Loop, outline: Outline) -> bool:
     """Whether an outline leaves the places whose points are not looked at on their side."""
-    places = loop.core[:, :2]
-    depth = outline.foot(places).distance * (1 if loop.hole else -1)
-    return not len(places) or bool((depth < 0).mean() <= LOST)
+    depth = outline.foot(loop.beyond).distance * (1 if loop.hole else -1)
+    return bool((depth < 0).sum() <= LOST * len(loop.core))
 
 
 def section_model(loop: Loop, outline: Outline) -> ExactModel:

@@ -70,9 +70,13 @@ WALLS: dict[str, Wall] = {
     "extrusion": swept(Rectangle(CENTRE, 0.6, 0.4, 0.3)),
     "slanted": swept(Polygon(ELL), "drift"),
     "tapered": swept(Ellipse(CENTRE, 0.3, 0.2, 0.7), "taper"),
+    "tapered beside it": Swept(Ellipse(CENTRE, 0.3, 0.2, 0.7), 0.05, ORIGIN, ORIGIN, 0.4, 0.0, ("taper",)),
     "twisted": swept(RegularPolygon(CENTRE, 0.35, 0.2, 5), "twist"),
     "all at once": swept(RoundedRectangle(CENTRE, 0.6, 0.4, 0.3, 0.08), "drift", "taper", "twist"),
     "ellipsoid": Swept(Ellipse(CENTRE, 0.4, 0.3, 0.7), 0.05, CENTRE, ORIGIN, 0.2, 0.0, ("taper", "bow"), 2.0),
+    "ellipsoid beside it": Swept(
+        Ellipse(CENTRE, 0.4, 0.3, 0.7), 0.05, ORIGIN, ORIGIN, 0.2, 0.0, ("taper", "bow"), 2.0
+    ),
     "pillow": Swept(
         Rectangle(CENTRE, 0.6, 0.4, 0.3), 0.05, CENTRE, ORIGIN, -0.2, 0.0, ("drift", "taper", "bow"), 1.8
     ),

@@ -14,6 +14,7 @@ from sketchloft.outline.divided_circle import DividedCircle
 from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.fitted_loop import fitted_loop
 from sketchloft.outline.outline import Arc, Boundary, Closed, Outline, Segment
+from sketchloft.outline.pieces import line_arc_pieces
 from sketchloft.outline.placed_polygons import Rectangle, RegularPolygon, RoundedRectangle
 from sketchloft.outline.polygons import LineArc, Polygon
 from sketchloft.outline.rectilinear import RectilinearPolygon, rectilinear_of, with_a_step_less
@@ -313,3 +314,16 @@ def test_the_smallest_step_is_left_out() -> None:
         assert ring_area(fewer.chain()[0]) > 0
         assert fewer.area == pytest.approx(stairs.area, rel=0.1)
         assert with_a_step_less(fewer) is None
+
+
+@pytest.mark.parametrize("width", [0.3, 0.8, 1.5])
+def test_most_of_a_circle_is_one_arc(width: float) -> None:
+    """A key: a round head of radius 1, and a bar of some width that begins in it."""
+    bar = np.array([[3, -width / 2], [3, width / 2]])
+    start, sweep = np.arcsin(width / 2), 2 * np.pi - 2 * np.arcsin(width / 2)
+    angle = start + sweep * np.linspace(0, 1, 300)
+    ring = np.concatenate([bar, np.column_stack([np.cos(angle), np.sin(angle)])])
+    vertices, bulges = line_arc_pieces(ring, 0.005, 0.05, (5.0,))[0]
+    assert len(vertices) == 4
+    assert np.sort(bulges)[:3].tolist() == [0, 0, 0]
+    assert 4 * np.arctan(bulges.max()) == pytest.approx(sweep, abs=0.15)

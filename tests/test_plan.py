@@ -97,6 +97,7 @@ WALLS: list[Wall] = [
         for outline in OUTLINES
     ),
     Swept(OUTLINES[2], 0.0, np.zeros(2), np.zeros(2), 0.0, 0.5, ("twist",)),
+    Swept(OUTLINES[2], 0.0, CENTRE, np.zeros(2), 0.3, 0.0, ("taper",)),
     *(
         Swept(outline, 0.1, np.array([0.01, 0.02]), np.zeros(2), 0.3, 0.0, ("taper", "bow"), 1.5)
         for outline in OUTLINES

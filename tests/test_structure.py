@@ -15,6 +15,8 @@ from sketchloft.exact.body import ExactBody
 from sketchloft.exact.changes.change import Change
 from sketchloft.exact.changes.evidence import improved
 from sketchloft.exact.changes.misfit import misfit
+from sketchloft.exact.fit.climb import climb
+from sketchloft.exact.fit.likelihood import value_of
 from sketchloft.exact.model.density import Density
 from sketchloft.exact.model.exact_model import ExactModel, model_of
 from sketchloft.exact.model.soundness import detached, sound
@@ -31,7 +33,7 @@ from sketchloft.outline.rectilinear import rectilinear_of
 from sketchloft.outline.star import Star
 from sketchloft.robust_size import middle_and_size
 from sketchloft.sample import GOALS, sample_goal
-from sketchloft.stack import Run, Stack, Wall
+from sketchloft.stack import Run, Stack, Wall, section_boundary
 from sketchloft.stack_volume import stack_volume
 from sketchloft.wall.profile import ArcProfile, LineProfile
 from sketchloft.wall.revolved import Revolved
@@ -237,6 +239,22 @@ def test_corners_are_right_ones_only_where_they_are(lean: float, kind: str) -> N
         assert wall.kind == kind
         assert isinstance(wall, Swept)
         assert np.abs(true.foot(wall.outline.boundary(60).points).distance).max() < 0.004
+
+
+@pytest.mark.parametrize("aside", [[0.03, 0.0], [-0.01, 0.02]])
+def test_a_roof_grows_about_its_own_middle(aside: list[float]) -> None:
+    """Wherever the first look at the points sees that."""
+    square = Rectangle(AXIS, 0.6, 0.5, 0.0)
+    house = Swept(square, 0.0, AXIS, AXIS)
+    roof = Swept(square, 0.1, AXIS, AXIS, -2.0, 0.0, ("taper",))
+    points = drawn(stack_of([-0.3, 0.1, 0.4], house, roof))
+    seen = replace(roof, pivot=np.array(aside)).about_centre()
+    found, _, _ = climb(points, model_at(stack_of([-0.3, 0.1, 0.4], house, seen)), 12)
+    wall = found.stack.runs[1].walls[0]
+    assert np.abs(section_boundary(wall, 0.35, 80).centre).max() < 0.001
+    fixed = model_at(stack_of([-0.3, 0.1, 0.4], house, replace(roof, pivot=np.array(aside))))
+    drifting, _, _ = climb(points, fixed, 12)
+    assert value_of(points, found) > value_of(points, drifting) + 5
 
 
 @pytest.mark.parametrize("seed", range(3))

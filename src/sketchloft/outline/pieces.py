@@ -15,8 +15,8 @@ __all__ = ["line_arc_pieces"]
 SAMPLES = 120
 LINE_PRICE = 6.0
 ARC_PRICE = 9.0
-WORST = 4.0
-"""Largest deviation that a piece may have anywhere, in deviations of the contour."""
+WIDEST = 6.0
+"""Sweep of an arc at most, in radians: next to none is left of a circle for other pieces."""
 
 
 def line_arc_pieces(
@@ -109,7 +109,7 @@ def _bulge(start: Floats, ends: Floats, middles: Floats, centres: Floats) -> Flo
     whole = np.mod(angle(ends) - first, 2 * np.pi)
     half = np.mod(angle(middles) - first, 2 * np.pi)
     sweep = np.where(half <= whole, whole, whole - 2 * np.pi)
-    return np.tan(np.clip(sweep / 4, -1.2, 1.2))
+    return np.tan(np.clip(sweep, -WIDEST, WIDEST) / 4)
 
 
 def _corners(closed: Floats, i: Ints, j: Ints, straight: np.ndarray, trim: int) -> Floats:

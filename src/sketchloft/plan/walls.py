@@ -96,7 +96,8 @@ def _swept(described: Form) -> Form:
             raise ValueError(
                 "found a bow beside a twist or a larger taper, expected a bow above the taper, and no twist"
             )
-        pivot = values.get("pivot", ring.lengths @ ring.points / ring.lengths.sum())
+        centroid = ring.lengths @ ring.points / ring.lengths.sum()
+        pivot = values.get("pivot", values.get("centre", centroid))
         return Swept(
             outline, values.get("height", 0.0), pivot, moves.pop("drift", np.zeros(2)), **moves, free=free
         )
@@ -105,7 +106,7 @@ def _swept(described: Form) -> Form:
         outline: Outline = wall.outline
         found: dict[str, Any] = {f: getattr(wall, f) for f in FREEDOMS}
         moves = {f: value for f, value in found.items() if f in wall.free or np.any(value)}
-        turned = bool(moves.keys() - {"drift"})
+        turned = bool(moves.keys() - {"drift"}) and not wall.centred
         place = {"height": wall.height if moves else None, "pivot": wall.pivot if turned else None}
         return {**described.read(outline), **place, **moves}
 

@@ -32,7 +32,8 @@ class Swept:
         At `height`.
     height : float
     pivot : (2,) float array
-        Point that taper and twist are about; fixed.
+        Point that taper and twist are about; fixed, but for one at the centre of an outline that has one,
+        which stays there as long as drift is not free: else the sections would drift as they grow.
     drift : (2,) float array
         Sideways movement per height.
     taper : float
@@ -83,7 +84,20 @@ class Swept:
                 changes[name] = float(vector[at])
                 at += 1
         outline = self.outline.moved(vector[: len(self.outline.vector)])
+        if self.centred:
+            changes["pivot"] = centre_of(outline)
         return replace(self, outline=outline, **changes)  # type: ignore[arg-type]
+
+    def about_centre(self) -> Self:
+        """Return the wall with its pivot at the centre of its outline, if that has one and nothing drifts."""
+        centre = centre_of(self.outline)
+        drifts = "drift" in self.free or np.any(self.drift)
+        return self if centre is None or drifts else replace(self, pivot=centre)
+
+    @property
+    def centred(self) -> bool:
+        """Whether the pivot is the centre of the outline, and goes with it."""
+        return "drift" not in self.free and np.array_equal(centre_of(self.outline), self.pivot)  # type: ignore[arg-type]
 
     @property
     def bows(self) -> bool:
@@ -153,6 +167,8 @@ class Swept:
 
         def slopes() -> Floats:
             columns = [(c * scale)[:, None] * seen.gradient]
+            if self.centred:
+                columns[0][:, :2] = -c[:, None] * across
             for name in self.free:
                 if name == "drift":
                     columns.append(-(c * dz)[:, None] * across)
@@ -181,6 +197,8 @@ class Swept:
                 "bow": (-2 * self.bow * dz**2 * found.by_square)[:, None],
             }
             columns = [found.by_outline[:, None] * seen.gradient, *(by[name] for name in self.free)]
+            if self.centred:
+                columns[0][:, :2] = found.by_shift
             return np.concatenate(columns, axis=1)
 
         return WallFoot(found.distance, found.normal, slopes, found.curvature)
@@ -228,6 +246,11 @@ class Swept:
         half = (ends[1] - ends[0]) / 2
         angle = ends.mean() + half * x
         return middle + radius * np.sin(angle), w * half * radius * np.cos(angle)
+
+
+def centre_of(outline: Outline) -> Floats | None:
+    """(2,) centre of an outline that is placed by one, with its first two parameters; else None."""
+    return getattr(outline, "centre", None)
 
 
 def _turned(vectors: Floats, cos: Floats, sin: Floats) -> Floats:

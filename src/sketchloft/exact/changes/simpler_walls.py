@@ -55,7 +55,7 @@ def walls_like(wall: Wall, low: float, high: float) -> Iterator[Wall]:
     elif isinstance(wall, Swept):
         yield from _moving_otherwise(wall)
         for outline in _outlines_like(wall.outline):
-            yield replace(wall, outline=outline)
+            yield replace(wall, outline=outline).about_centre()
         if isinstance(wall.outline, Circle) and not np.any(wall.drift):
             z = np.linspace(low, high, HEIGHTS)
             for profile in profiles_like(z, wall.outline.radius * wall.scale(z)):
@@ -86,10 +86,10 @@ def _moving_otherwise(wall: Swept) -> Iterator[Swept]:
     for name in wall.free:
         still: Floats | float = np.zeros(2) if name == "drift" else 0.0
         free = tuple(other for other in wall.free if other != name)
-        yield replace(wall, free=free, **{name: still})  # type: ignore[arg-type]
+        yield replace(wall, free=free, **{name: still}).about_centre()  # type: ignore[arg-type]
     for more in MORE:
         if more not in wall.free:
-            yield replace(wall, free=(*wall.free, more))
+            yield replace(wall, free=(*wall.free, more)).about_centre()
 
 
 def profiles_like(z: Floats, r: Floats) -> Iterator[Profile]:

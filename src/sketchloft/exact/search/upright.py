@@ -74,4 +74,4 @@ def _straight(wall: Wall) -> Wall:
     if not isinstance(wall, Swept) or _slant(wall) is None:
         return wall
     free = tuple(name for name in wall.free if name != "drift")
-    return as_revolved(replace(wall, drift=np.zeros(2), free=free))
+    return as_revolved(replace(wall, drift=np.zeros(2), free=free).about_centre())

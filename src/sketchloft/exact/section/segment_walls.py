@@ -126,7 +126,8 @@ def _walls(
         drift = plan.drift if "drift" in free else np.zeros(2)
         if twist:
             free = (*free, "twist")
-        return Swept(outline, plan.height, plan.centre, drift, taper, twist, free, bow)
+        wall = Swept(outline, plan.height, plan.centre, drift, taper, twist, free, bow)
+        return wall if isinstance(outline, Circle) else wall.about_centre()  # a circle shows how it leans
 
     walls.append(swept())
     if slanted:

@@ -8,8 +8,10 @@ import pytest
 from sketchloft.cloud import Floats
 from sketchloft.exact.changes.simpler_walls import walls_like
 from sketchloft.exact.changes.turning import turning
+from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.placed_polygons import Rectangle
 from sketchloft.outline.polygons import Polygon
+from sketchloft.outline.stadium import Stadium
 from sketchloft.wall.ruled import Ruled
 from sketchloft.wall.swept import Swept
 
@@ -56,3 +58,13 @@ def test_a_ruled_wall_from_one_shape_to_another_does_not_turn() -> None:
         Polygon(Rectangle(ORIGIN, 0.3, 0.4, 0.0).chain()[0]),
     )
     assert not list(turning(Ruled(*ends, -0.2, 0.6)))
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.7, 2.0])
+def test_an_ellipse_may_be_a_stadium(turn: float) -> None:
+    ellipse = Ellipse(np.array([0.1, 0.2]), 0.4, 0.25, turn)
+    others = [other.outline for other in walls_like(Swept(ellipse, 0.0, ORIGIN, ORIGIN), -0.2, 0.2)]  # type: ignore[union-attr]
+    stadium = next(other for other in others if isinstance(other, Stadium))
+    assert stadium.centre == pytest.approx(ellipse.centre, abs=1e-3)
+    assert np.cos(2 * (stadium.angle - turn)) == pytest.approx(1, abs=1e-3)  # to a degree
+    assert stadium.area == pytest.approx(ellipse.area, rel=0.12)

@@ -111,12 +111,7 @@ def _form(profile: Profile) -> tuple[bool, bool]:
 
 def _outlines_like(outline: Outline) -> Iterator[Outline]:
     ring = outline.boundary(96).points
-    if isinstance(outline, (Ellipse, LineArc, SplineLoop, RegularPolygon, RoundedRectangle, Stadium)):
-        yield circle_of(ring)
-    if isinstance(outline, (LineArc, SplineLoop)):
-        yield ellipse_of(ring)
-    if isinstance(outline, (LineArc, RoundedRectangle)):
-        yield stadium_like(outline if isinstance(outline, RoundedRectangle) else rectangle_of(ring))
+    yield from _ovals_like(outline, ring)
     if isinstance(outline, RoundedRectangle):
         yield Rectangle(outline.centre, outline.width, outline.height, outline.angle)
     if isinstance(outline, Rectangle):
@@ -130,6 +125,16 @@ def _outlines_like(outline: Outline) -> Iterator[Outline]:
         for other in polygons(ring, polygon, float(np.sqrt(outline.area)) * 0.05):
             if type(other) is not type(outline):
                 yield other
+
+
+def _ovals_like(outline: Outline, ring: Floats) -> Iterator[Outline]:
+    """Circle, ellipse and stadium that an outline with a ring (m, 2) of points could be."""
+    if isinstance(outline, (Ellipse, LineArc, SplineLoop, RegularPolygon, RoundedRectangle, Stadium)):
+        yield circle_of(ring)
+    if isinstance(outline, (LineArc, SplineLoop)):
+        yield ellipse_of(ring)
+    if isinstance(outline, (Ellipse, LineArc, RoundedRectangle)):
+        yield stadium_like(outline if isinstance(outline, RoundedRectangle) else rectangle_of(ring))
 
 
 def _corners_of(outline: Outline) -> Polygon | None:

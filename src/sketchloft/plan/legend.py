@@ -51,8 +51,8 @@ LEGEND = """\
 #     line-arc           vertices, bulges: tan(sweep / 4) of the arc after each vertex, 0 for a line
 #     spline             poles of a closed cubic spline, counter-clockwise
 # From circle on, walls are extruded from their outline, and may move along the heights: drift [x, y] per
-# height, taper: growth per height as a share of the size at height, about pivot, twist: degrees per
-# height, and bow, which closes the wall like a dome: of z above height, the size is
-# sqrt((1 + taper z)^2 - (bow z)^2). Angles are in degrees. A value may be the name of one in [body.shared],
-# which then is the same for all walls that name it.
+# height, taper: growth per height as a share of the size at height, twist: degrees per height, both about
+# pivot, or the outline's middle where none is given, and bow, which closes the wall like a dome: of z above
+# height, the size is sqrt((1 + taper z)^2 - (bow z)^2). Angles are in degrees. A value may be the name of one
+# in [body.shared], which then is the same for all walls that name it.
 """

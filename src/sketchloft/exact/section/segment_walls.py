@@ -103,7 +103,11 @@ def _fitted(
 def _runs(plan: PlanView, shape: SectionShape, ends: tuple[float, float], twist: float) -> list[Run]:
     """Ways in which the section may go along the segment, the simplest first."""
     changing = bool(np.any(plan.growth[1:]))
-    options = [_walls(plan, outline, ends, twist, changing=changing) for outline in shape.outlines]
+    pieces = len(shape.outlines) - shape.holes
+    options = [
+        _walls(plan, outline, ends if k < pieces else None, twist, changing=changing)
+        for k, outline in enumerate(shape.outlines)
+    ]
     count = max(len(option) for option in options)
     return [
         Run(tuple(option[min(k, len(option) - 1)] for option in options), shape.holes) for k in range(count)
@@ -111,12 +115,13 @@ def _runs(plan: PlanView, shape: SectionShape, ends: tuple[float, float], twist:
 
 
 def _walls(
-    plan: PlanView, outline: Outline, ends: tuple[float, float], twist: float, *, changing: bool
+    plan: PlanView, outline: Outline, ends: tuple[float, float] | None, twist: float, *, changing: bool
 ) -> list[Wall]:
+    """Walls upon an outline. Without ends, those of a hole: how the section grows says little of its profile."""
     slanted = bool(np.any(plan.drift))
     taper, bow = taper_and_bow(*plan.growth[1:].tolist())
     walls: list[Wall] = []
-    if isinstance(outline, Circle) and not twist:
+    if ends and isinstance(outline, Circle) and not twist:
         # A density that changes across makes what is revolved look slanted.
         walls = _revolved(plan, outline, ends, changing=changing)
     if walls and not slanted:

@@ -117,7 +117,7 @@ def _runs(plan: PlanView, shape: SectionShape, ends: tuple[float, float], twist:
 def _walls(
     plan: PlanView, outline: Outline, ends: tuple[float, float] | None, twist: float, *, changing: bool
 ) -> list[Wall]:
-    """Walls upon an outline. Without ends, those of a hole: how the section grows says little of its profile."""
+    """Walls upon an outline. Without ends, those of a hole, which need not grow as the section does."""
     slanted = bool(np.any(plan.drift))
     taper, bow = taper_and_bow(*plan.growth[1:].tolist())
     walls: list[Wall] = []

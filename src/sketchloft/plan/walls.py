@@ -97,10 +97,9 @@ def _swept(described: Form) -> Form:
                 "found a bow beside a twist or a larger taper, expected a bow above the taper, and no twist"
             )
         centroid = ring.lengths @ ring.points / ring.lengths.sum()
-        pivot = values.get("pivot", values.get("centre", centroid))
-        return Swept(
-            outline, values.get("height", 0.0), pivot, moves.pop("drift", np.zeros(2)), **moves, free=free
-        )
+        pivot, drift = values.get("pivot", centroid), moves.pop("drift", np.zeros(2))
+        wall = Swept(outline, values.get("height", 0.0), pivot, drift, **moves, free=free)
+        return wall if "pivot" in values else wall.about_centre()
 
     def read(wall: Swept) -> dict[str, Any]:
         outline: Outline = wall.outline

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import chain
 
 import numpy as np
 
@@ -53,9 +54,8 @@ def walls_like(wall: Wall, low: float, high: float) -> Iterator[Wall]:
     elif isinstance(wall, Ruled):
         yield from turning(wall)
     elif isinstance(wall, Swept):
-        yield from _moving_otherwise(wall)
-        for outline in _outlines_like(wall.outline):
-            yield replace(wall, outline=outline).about_centre()
+        reshaped = (replace(wall, outline=outline) for outline in _outlines_like(wall.outline))
+        yield from (other.about_centre() for other in chain(_moving_otherwise(wall), reshaped))
         if isinstance(wall.outline, Circle) and not np.any(wall.drift):
             z = np.linspace(low, high, HEIGHTS)
             for profile in profiles_like(z, wall.outline.radius * wall.scale(z)):
@@ -86,10 +86,10 @@ def _moving_otherwise(wall: Swept) -> Iterator[Swept]:
     for name in wall.free:
         still: Floats | float = np.zeros(2) if name == "drift" else 0.0
         free = tuple(other for other in wall.free if other != name)
-        yield replace(wall, free=free, **{name: still}).about_centre()  # type: ignore[arg-type]
+        yield replace(wall, free=free, **{name: still})  # type: ignore[arg-type]
     for more in MORE:
         if more not in wall.free:
-            yield replace(wall, free=(*wall.free, more)).about_centre()
+            yield replace(wall, free=(*wall.free, more))
 
 
 def profiles_like(z: Floats, r: Floats) -> Iterator[Profile]:

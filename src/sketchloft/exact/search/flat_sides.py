@@ -42,17 +42,15 @@ def flat_sides(points: Floats, model: ExactModel, together: float) -> ExactModel
     criterion.
     """
     places = [
-        (j, i, wall)
+        (j, i, wall, sides)
         for j, run in enumerate(model.stack.runs)
         for i, wall in enumerate(run.walls)
-        if isinstance(wall, Ruled) and _nearly_flat(wall)
+        if isinstance(wall, Ruled) and (sides := _nearly_flat(wall))
     ]
     near = telling(points, model) if places else points[:0]
     worth = together * price(1, len(points), together)
-    for j, i, wall in places:
-        model = as_many_as_pay(
-            near, model, _nearly_flat(wall), worth, partial(_with_flat, model, (j, i), wall)
-        )
+    for j, i, wall, sides in places:
+        model = as_many_as_pay(near, model, sides, worth, partial(_with_flat, model, (j, i), wall))
     return model
 
 

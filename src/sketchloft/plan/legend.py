@@ -34,6 +34,8 @@ LEGEND = """\
 #                        lines lead to it from the corners, at first_cut + stagger, first_cut + 90 - stagger,
 #                        first_cut + 180 + stagger, first_cut + 270 - stagger
 #     round to square    the same, the circle at the bottom
+#     rectangle to rectangle  bottom_centre, bottom_width, bottom_depth, bottom_angle: the rectangle at the
+#                        bottom of the run; top_centre, top_width, top_depth, top_angle: that at the top
 #     loft               knots: heights, from break to break of its run, poles: a ring of points for each
 #                        pole along the heights
 #     circle             centre, radius

@@ -13,7 +13,7 @@ from sketchloft.plan.field import Number
 from sketchloft.plan.plan import PlannedBody, Shared
 from sketchloft.plan.walls import FORMS, kind_of
 from sketchloft.stack import Wall
-from sketchloft.wall.swept import FREEDOMS, Swept
+from sketchloft.wall.swept import MOVEMENTS, Swept
 
 __all__ = ["Place", "shared_names", "tied_pairs"]
 
@@ -28,7 +28,7 @@ def fields_in_vector(wall: Wall) -> dict[str, Ints]:
     fields = [f for f in form.fields if values.get(f.name) is not None]
     if isinstance(wall, Swept):
         moves = wall.free
-        fields = [f for f in fields if f.name not in FREEDOMS or f.name in moves]
+        fields = [f for f in fields if f.name not in MOVEMENTS or f.name in moves]
         fields.sort(key=lambda f: moves.index(f.name) if f.name in moves else -1)
     found, at = {}, 0
     for field in fields:

@@ -12,6 +12,7 @@ from sketchloft.errors import InputError
 from sketchloft.exact.model.density import Density
 from sketchloft.exact.model.exact_model import ExactModel, model_of, tied
 from sketchloft.exact.model.joins import joined
+from sketchloft.exact.model.kinks import with_kink
 from sketchloft.plan.from_model import followed
 from sketchloft.plan.plan import PlannedBody, PlannedWall, Shared
 from sketchloft.plan.ties import tied_pairs
@@ -65,6 +66,9 @@ def model_from_plan(
     for j, made in enumerate(walls):
         for i, wall in enumerate(made):
             _check_reach(wall, heights[j : j + 2], scale, f"run {j + 1}, wall {i + 1}")
+    for k in range(1, len(runs)):
+        if body.breaks[k].join == "cross":
+            runs = (*runs[: k - 1], *with_kink(*runs[k - 1 : k + 1]), *runs[k + 1 :])
     model = model_of(Stack(heights, runs), body.noise / scale, density, stray, space)
     model = tied(model, tied_pairs(body, walls))
     model = joined(replace(model, joins=tuple(at.join for at in body.breaks)))

@@ -23,7 +23,7 @@ from sketchloft.wall.lofted import Lofted, lofted
 from sketchloft.wall.profile import ArcProfile, LineProfile, Profile, SplineProfile
 from sketchloft.wall.revolved import Revolved
 from sketchloft.wall.ruled import Ruled
-from sketchloft.wall.swept import FREEDOMS, Freedom, Swept
+from sketchloft.wall.swept import MOVEMENTS, Freedom, Swept
 
 __all__ = ["FORMS", "kind_of"]
 
@@ -90,7 +90,7 @@ def _swept(described: Form) -> Form:
         outline = described.make(values)
         ring = outline.boundary(64)
         _check_turn(ring.points, "points")
-        free: tuple[Freedom, ...] = tuple(f for f in FREEDOMS if f in values)
+        free: tuple[Freedom, ...] = tuple(f for f in MOVEMENTS if f in values)
         moves: dict[str, Any] = {name: values[name] for name in free}
         if "bow" in moves and (moves["bow"] <= abs(moves.get("taper", 0.0)) or "twist" in moves):
             raise ValueError(
@@ -103,7 +103,7 @@ def _swept(described: Form) -> Form:
 
     def read(wall: Swept) -> dict[str, Any]:
         outline: Outline = wall.outline
-        found: dict[str, Any] = {f: getattr(wall, f) for f in FREEDOMS}
+        found: dict[str, Any] = {f: getattr(wall, f) for f in MOVEMENTS}
         moves = {f: value for f, value in found.items() if f in wall.free or np.any(value)}
         turned = bool(moves.keys() - {"drift"}) and not wall.centred
         place = {"height": wall.height if moves else None, "pivot": wall.pivot if turned else None}
@@ -161,17 +161,28 @@ def _square_and_round(*, up: bool) -> Form:
         Number("first_cut", "angle", "angle"),
         Number("stagger", "stagger", "angle"),
     )
+    return _from_to(*((square, circle) if up else (circle, square)))
+
+
+def _between_rectangles() -> Form:
+    """Two rectangles."""
+    low, high = (
+        form(Rectangle, *(replace(side, name=f"{end}_{side.name}") for side in SIDES))
+        for end in ("bottom", "top")
+    )
+    return _from_to(low, high)
+
+
+def _from_to(below: Form, above: Form) -> Form:
+    """A ruled wall between two outlines of other keys."""
 
     def make(values: dict[str, Any]) -> Ruled:
-        ends = square.make(values), circle.make(values)
-        return Ruled(*(ends if up else ends[::-1]))
+        return Ruled(below.make(values), above.make(values))
 
     def read(wall: Ruled) -> dict[str, Any]:
-        below, above = (wall.bottom, wall.top) if up else (wall.top, wall.bottom)
-        return {**square.read(below), **circle.read(above)}
+        return {**below.read(wall.bottom), **above.read(wall.top)}
 
-    ends = (square.fields, circle.fields)
-    return Form(sum(ends if up else ends[::-1], ()), read, make)
+    return Form((*below.fields, *above.fields), read, make)
 
 
 def _filleted() -> Form:
@@ -220,6 +231,7 @@ FORMS: dict[str, Form] = {
     "ruled": _ruled(),
     "square to round": _square_and_round(up=True),
     "round to square": _square_and_round(up=False),
+    "rectangle to rectangle": _between_rectangles(),
     "loft": form(_loft, KNOTS, Number("poles", "poles", shape=(None, None, 2), fitted="across", least=4)),
     **{kind: _swept(outline) for kind, outline in OUTLINES.items()},
 }
@@ -233,5 +245,6 @@ def kind_of(wall: Wall) -> str:
         return {
             (Rectangle, DividedCircle): "square to round",
             (DividedCircle, Rectangle): "round to square",
+            (Rectangle, Rectangle): "rectangle to rectangle",
         }.get(ends, wall.kind)
     return wall.outline.kind if isinstance(wall, Swept) else wall.kind

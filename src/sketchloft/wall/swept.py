@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Literal, Self, get_args
+from typing import Literal, Self
 
 import numpy as np
 
@@ -13,10 +13,10 @@ from sketchloft.outline.outline import Outline
 from sketchloft.wall.dome import dome_foot
 from sketchloft.wall.foot import WallBoundary, WallFoot, spread
 
-__all__ = ["FREEDOMS", "Freedom", "Swept"]
+__all__ = ["MOVEMENTS", "Freedom", "Swept"]
 
-Freedom = Literal["drift", "taper", "twist", "bow"]
-FREEDOMS: tuple[Freedom, ...] = get_args(Freedom)
+Freedom = Literal["drift", "taper", "twist", "bow", "height"]
+MOVEMENTS: tuple[Freedom, ...] = ("drift", "taper", "twist", "bow")
 GAUSS = gauss(6)
 LEAST_SQUARE = 1e-4
 """The outline is looked at from no farther than its size at this squared scale."""
@@ -31,6 +31,7 @@ class Swept:
     outline : Outline
         At `height`.
     height : float
+        A parameter only where another wall has the same outline and this one begins to move away from it.
     pivot : (2,) float array
         Point that taper and twist are about; fixed, but for one at the centre of an outline that has one,
         which stays there as long as drift is not free: else the sections would drift as they grow.
@@ -40,7 +41,7 @@ class Swept:
         Relative growth per height.
     twist : float
         Turn per height in radians; none where the wall bows.
-    free : tuple of {"drift", "taper", "twist", "bow"}
+    free : tuple of {"drift", "taper", "twist", "bow", "height"}
         Which of these are parameters; the others stay what they are.
     bow : float
         Per height; the squared scale is ``(1 + taper dz)**2 - (bow dz)**2``, so that the sections shrink as
@@ -59,7 +60,7 @@ class Swept:
     @property
     def kind(self) -> str:
         """The outline's kind, and how it moves."""
-        moves = [name for name in FREEDOMS if np.any(getattr(self, name))]
+        moves = [name for name in MOVEMENTS if np.any(getattr(self, name))]
         if "bow" in moves:
             moves = [name for name in moves if name != "taper"]
         words = {"drift": "slanted", "taper": "tapered", "twist": "twisted", "bow": "domed"}
@@ -164,6 +165,7 @@ class Swept:
             - self.twist * scale * along_quarter
         )
         c = 1 / np.hypot(1.0, slope)
+        normal = np.column_stack([across, slope]) * c[:, None]
 
         def slopes() -> Floats:
             columns = [(c * scale)[:, None] * seen.gradient]
@@ -174,11 +176,12 @@ class Swept:
                     columns.append(-(c * dz)[:, None] * across)
                 elif name == "taper":
                     columns.append((c * dz * (seen.distance - along_arm))[:, None])
+                elif name == "height":
+                    columns.append(-normal[:, 2:])
                 else:
                     columns.append(-(c * scale * dz * along_quarter)[:, None])
             return np.concatenate(columns, axis=1)
 
-        normal = np.column_stack([across, slope]) * c[:, None]
         return WallFoot(c * scale * seen.distance, normal, slopes, c * seen.curvature / scale)
 
     def _dome(self, points: Floats) -> WallFoot:
@@ -195,6 +198,7 @@ class Swept:
                 "drift": dz[:, None] * found.by_shift,
                 "taper": (2 * dz * (1 + self.taper * dz) * found.by_square)[:, None],
                 "bow": (-2 * self.bow * dz**2 * found.by_square)[:, None],
+                "height": -found.normal[:, 2:],
             }
             columns = [found.by_outline[:, None] * seen.gradient, *(by[name] for name in self.free)]
             if self.centred:

@@ -68,17 +68,27 @@ def lofted(points: Floats, model: ExactModel, together: float) -> ExactModel:
 def ruled(points: Floats, model: ExactModel, together: float, workers: Workers = ALONE) -> ExactModel:
     """One ruled wall for a chain of runs, or for one run, where it pays."""
     for chain in reversed(smooth_chains(model)):
-        if not _may_be_ruled(points, model, chain, together):
-            continue
-        ends = float(model.stack.breaks[chain.start]), float(model.stack.breaks[chain.stop])
-        parts = []
-        for wall in (*square_to_round(model, chain), ruled_start(points, ends, together, workers)):
-            if wall is not None:
-                change = with_runs(model, chain.start, chain.stop - 1, Run((wall,)))
-                parts.append((points, model, Change(change, range(chain.start, chain.start + 1)), together))
-        found = [(gain, better) for better, gain in workers.each(tried_free, parts) if better is not None]
-        model = max(found, key=lambda one: one[0])[1] if found else model
+        better = _best_ruled(points, model, chain, together, workers)
+        if better is None and len(chain) > 1:
+            for j in reversed(chain):
+                model = _best_ruled(points, model, range(j, j + 1), together, workers) or model
+        model = better or model
     return model
+
+
+def _best_ruled(
+    points: Floats, model: ExactModel, chain: range, together: float, workers: Workers
+) -> ExactModel | None:
+    if not _may_be_ruled(points, model, chain, together):
+        return None
+    ends = float(model.stack.breaks[chain.start]), float(model.stack.breaks[chain.stop])
+    parts = []
+    for wall in (*square_to_round(model, chain), ruled_start(points, ends, together, workers)):
+        if wall is not None:
+            change = with_runs(model, chain.start, chain.stop - 1, Run((wall,)))
+            parts.append((points, model, Change(change, range(chain.start, chain.start + 1)), together))
+    found = [(gain, better) for better, gain in workers.each(tried_free, parts) if better is not None]
+    return max(found, key=lambda one: one[0])[1] if found else None
 
 
 def _may_be_ruled(points: Floats, model: ExactModel, chain: range, together: float) -> bool:

@@ -19,8 +19,8 @@ from sketchloft.workers import ALONE, Workers
 
 __all__ = ["ruled_start"]
 
-SLAB = 0.12
-"""Share of the stretch at either end whose points show the outline there."""
+SLABS = (0.12, 0.2, 0.3)
+"""Shares of the stretch at either end whose points show the outline there: the first with enough of them."""
 FEWEST = 150
 """Points that such a slab needs."""
 MOST_POINTS = 1200
@@ -50,10 +50,12 @@ def ruled_start(
         None where a section is not one piece, or neither has corners, or both are too rich in them.
     """
     low, high = ends
-    slabs = []
-    for bottom, top in ((low, low + SLAB * (high - low)), (high - SLAB * (high - low), high)):
-        slab = points[(points[:, 2] > bottom) & (points[:, 2] < top), :2]
-        slabs.append(slab[:: len(slab) // MOST_POINTS + 1])
+    share = (points[:, 2] - low) / (high - low)
+    inside = (share > 0) & (share < 1)
+    (slab, width), (last_slab, last_width) = (
+        _slab(points[inside, :2], at[inside]) for at in (share, 1 - share)
+    )
+    slabs = slab, last_slab
     if min(map(len, slabs)) < FEWEST:
         return None
     outlines: list[Outline] = []
@@ -65,11 +67,17 @@ def ruled_start(
     if chains is None:
         return None
     # What was found is the section in the middle of each slab.
-    share = SLAB / 2 / (1 - SLAB)
     (first, first_bulges), (last, last_bulges) = chains
-    rise = last - first
-    below = chain_outline(first - share * rise, first_bulges)
-    return Ruled(below, chain_outline(last + share * rise, last_bulges), low, high)
+    rise = (last - first) / (1 - (width + last_width) / 2)
+    below = chain_outline(first - width / 2 * rise, first_bulges)
+    return Ruled(below, chain_outline(last + last_width / 2 * rise, last_bulges), low, high)
+
+
+def _slab(points: Floats, share: Floats) -> tuple[Floats, float]:
+    """Points (n, 2) of the thinnest slab at an end that has enough of them, and its share of the stretch."""
+    width = next((width for width in SLABS if np.count_nonzero(share < width) >= FEWEST), SLABS[-1])
+    slab = points[share < width]
+    return slab[:: len(slab) // MOST_POINTS + 1], width
 
 
 def _matched(below: Outline, above: Outline) -> tuple[tuple[Floats, Floats], tuple[Floats, Floats]] | None:

@@ -56,4 +56,7 @@ def _is_ball(model: ExactModel) -> bool:
 def _leanings(run: Run) -> int:
     """In how many ways walls are not straight and upright that others of their kind are."""
     walls = run.walls[:1] if run.torus is not None else run.walls  # two halves are one thing
-    return sum(len(wall.free) if isinstance(wall, Swept) else BENT.get(wall.kind, 0) for wall in walls)
+    return sum(
+        len({*wall.free} - {"height"}) if isinstance(wall, Swept) else BENT.get(wall.kind, 0)
+        for wall in walls
+    )

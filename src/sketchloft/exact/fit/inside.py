@@ -138,9 +138,9 @@ def slopes_of(points: Floats, model: ExactModel, slabs: list[Slab], free: Bools)
             continue
         bells = _bells(slab.section, sigma)
         for slot, values, farthest in _by_walls(model, slab, bells, free):
-            columns = slice(slot[0], slot[-1] + 1) if (slot[1:] - slot[:-1] == 1).all() else slot
-            slope[near][:, columns] += between[:, None] * values
-            reach[slot] = np.maximum(reach[slot], farthest)
+            for column, value in zip(slot.tolist(), values.T, strict=True):  # of a wall may be one, too
+                slope[near, column] += between * value
+            np.maximum.at(reach, slot, farthest)
         if not (tilts or blurs or at_ends):
             continue
         away = slab.ends - points[near, 2, None]

@@ -8,6 +8,7 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.exact.model.exact_model import ExactModel, Join
+from sketchloft.exact.model.kinks import kink
 from sketchloft.stack import Run, Wall
 from sketchloft.wall.profile import ArcProfile, ends_of
 from sketchloft.wall.revolved import Revolved, radius_at
@@ -56,6 +57,8 @@ def _reached(below: Run, above: Run, height: float) -> float:
 
 
 def _natural(below: Run, above: Run, height: float, near: float) -> Join:
+    if kink(below, above) is not None:
+        return "cross"
     first, second = sole_profile(below), sole_profile(above)
     if first is None or second is None or np.hypot(*(first.centre - second.centre)) > near:
         return "step"
@@ -82,6 +85,9 @@ def _height(model: ExactModel, k: int, join: str) -> float | None:
             if wall is not None and isinstance(wall.profile, ArcProfile):
                 return wall.profile.height
     if join == "cross":
+        bend = kink(runs[k - 1], runs[k])
+        if bend is not None:
+            return bend
         reach = min(np.diff(model.stack.breaks)[[k - 1, k]]) / 2
         return crossing(runs[k - 1], runs[k], float(model.stack.breaks[k]), float(reach))
     return None

@@ -1,4 +1,4 @@
-"""Surgery: models with a run taken out, put in, or changed; of ties those of tori and round ends stay."""
+"""Surgery: models with a run taken out, put in, or changed; ties that walls show stay."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 
 from sketchloft.exact.model.exact_model import ExactModel, Tie, halves, model_of, tied
 from sketchloft.exact.model.joins import natural_joins, sole_profile
+from sketchloft.exact.model.kinks import kink_ties, squared_ties
 from sketchloft.stack import Run, Stack, Wall
 
 __all__ = ["RADIUS", "with_run", "with_runs", "with_split", "with_wall", "without_run"]
@@ -54,9 +55,10 @@ def without_run(model: ExactModel, index: int, heir: int | None) -> ExactModel:
 def _rebuilt(model: ExactModel, stack: Stack) -> ExactModel:
     fresh = model_of(stack, model.sigma, model.density, model.stray, model.space)
     ties = [tie for j, run in enumerate(stack.runs) if run.torus is not None for tie in halves(j)]
-    ties += [
-        tie for j in range(1, len(stack.runs)) for tie in _round_end(stack.runs[j - 1], stack.runs[j], j)
-    ]
+    ties += [tie for j, run in enumerate(stack.runs) for tie in squared_ties(run, j)]
+    for j in range(1, len(stack.runs)):
+        below, above = stack.runs[j - 1 : j + 1]
+        ties += _round_end(below, above, j) + kink_ties(below, above, j)
     return natural_joins(replace(tied(fresh, ties) if ties else fresh, core=model.core))
 
 

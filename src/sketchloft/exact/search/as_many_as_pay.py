@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import TypeVar
 
 from sketchloft.cloud import Floats
+from sketchloft.exact.fit.climb import climb
 from sketchloft.exact.fit.likelihood import beside_walls, value_of
+from sketchloft.exact.fit.schwarz import price
+from sketchloft.exact.fit.sharpen import least_noise
 from sketchloft.exact.model.exact_model import ExactModel
 
-__all__ = ["as_many_as_pay", "telling"]
+__all__ = ["as_many_as_pay", "fitted_if_it_pays", "telling"]
 
 BESIDE = 8.0
 """Noise deviations beside the walls within which points tell what a constraint costs."""
+
+STEPS = 12
 
 T = TypeVar("T")
 
@@ -52,3 +57,29 @@ def as_many_as_pay(
         if len(kept) == len(asked):
             break
     return best
+
+
+def fitted_if_it_pays(
+    points: Floats, model: ExactModel, simpler: Iterable[ExactModel], together: float
+) -> ExactModel:
+    """Return the first of some models of fewer parameters that is as good, fitted; else the model.
+
+    Parameters
+    ----------
+    points : (n, 3) float array
+        All points.
+    model : ExactModel
+        Fitted to them.
+    simpler : iterable of ExactModel
+        The simplest first; each may cost what its fewer parameters are worth by Schwarz's criterion.
+    together : float
+        How many of the points go together.
+    """
+    near, least = telling(points, model), least_noise(model, len(points))
+    value = value_of(near, model)
+    for candidate in simpler:
+        fitted, _, _ = climb(near, candidate, STEPS, noise=True, least=least)
+        saved = price(model.size - candidate.size, len(points), together)
+        if value - value_of(near, fitted) < together * saved:
+            return fitted
+    return model

@@ -23,7 +23,9 @@ from sketchloft.exact.search.as_capsule import as_capsule
 from sketchloft.exact.search.coaxial import coaxial
 from sketchloft.exact.search.flat_sides import flat_sides
 from sketchloft.exact.search.flush import flush
+from sketchloft.exact.search.kinked import kinked
 from sketchloft.exact.search.resection import resectioned
+from sketchloft.exact.search.squared import squared
 from sketchloft.exact.search.stray_strokes import counted, stray_strokes
 from sketchloft.exact.search.upended import upended
 from sketchloft.exact.search.upright import upright
@@ -133,7 +135,7 @@ def search(
         model, points, rotation = sharpened(points, thicker(pulling.model, every), tilt=tilt)
         turn = turn @ rotation
     model = merged(sample @ turn, thicker(model, 1 / every), together, workers)
-    model = thicker(model, every)
+    model = kinked(points, squared(points, thicker(model, every), together), together)
     model = thicker(without_gap(model, least_noise(model, len(points))), 1 / every)
     model = flush(sample @ turn, model, together)
     value = worth(sample @ turn, model, together, len(start.sample)) + strays.worth + pulling.worth

@@ -29,6 +29,8 @@ HOPELESS = 0.0095
 """That of a first stack, above which a search from it hardly ever ends well."""
 WRONG = 15.0
 """Misfit above which those of an even cloud may be."""
+LEDGE = 0.02
+"""Share of a section that jumps at a step."""
 
 
 def searched(
@@ -90,7 +92,8 @@ def searched(
             yield from _with_less(end, look)
         ends = []
     progress("runs")
-    starts = apart([*found, *other_starts(points, tuple(found), params, workers)])
+    far = bool(ends) and first.together == 1 and _doubtful(ends[0])
+    starts = apart([*found, *other_starts(points, tuple(found), params, workers, far=far)])
     progress("evidence")
     if starts[0] not in done:
         ends.append(look(starts[0]))
@@ -146,11 +149,16 @@ def _further(end: Found, others: list[Start]) -> list[Start]:
     if not others:
         return []
     if end.start.together == 1:
-        return others[:1] if end.misfit > WRONG or _patched(end.model) or _terraced(end.model) else []
+        return others[:1] if _doubtful(end) else []
     if end.model.sigma < _blurred(end.model):
         return []
     sharpest = min(others, key=lambda start: start.merged.sigma)
     return [others[0]] if others[0] is sharpest else [others[0], sharpest]
+
+
+def _doubtful(end: Found) -> bool:
+    """Whether an even cloud may be explained better along a direction that is far behind."""
+    return end.misfit > WRONG or _patched(end.model) or _terraced(end.model)
 
 
 def _patched(model: ExactModel) -> bool:
@@ -159,8 +167,16 @@ def _patched(model: ExactModel) -> bool:
 
 
 def _terraced(model: ExactModel) -> bool:
-    """Whether there are several runs and none is round, as where slopes are seen from their side."""
-    return len(model.stack.runs) > 1 and not any(isinstance(wall, Revolved) for wall in model.stack.walls)
+    """Whether there are steps and no wall is round, as where slopes are seen from their side."""
+    steps = any(_is_step(model, k) for k in range(1, len(model.stack.runs)))
+    return steps and not any(isinstance(wall, Revolved) for wall in model.stack.walls)
+
+
+def _is_step(model: ExactModel, k: int) -> bool:
+    """Whether the section jumps at a break."""
+    at = model.stack.breaks[k : k + 1]
+    below, above = (float(run.area(at)[0]) for run in model.stack.runs[k - 1 : k + 1])
+    return abs(above - below) > LEDGE * max(below, above)
 
 
 def _has_loft(model: ExactModel) -> bool:

@@ -40,7 +40,12 @@ Candidates = tuple[Candidate, ...]
 
 
 def other_starts(
-    points: Floats, found: tuple[Start, ...], params: SegmentsParams, workers: Workers = ALONE
+    points: Floats,
+    found: tuple[Start, ...],
+    params: SegmentsParams,
+    workers: Workers = ALONE,
+    *,
+    far: bool = False,
 ) -> tuple[Start, ...]:
     """Find the first stacks along other directions that explain the points about as well.
 
@@ -52,13 +57,17 @@ def other_starts(
         Those along the best, as it is cut at first and, maybe, more finely.
     params : SegmentsParams
     workers : Workers, optional
+    far : bool
+        Whether an even cloud has so much against what was found that directions may be far behind.
 
     Returns
     -------
     tuple of Start
     """
-    others = _blurred_contenders if found[0].together > 1 else _contenders
-    starts = [*found, *others(points, found, params, workers)]
+    if found[0].together > 1:
+        starts = [*found, *_blurred_contenders(points, found, params, workers)]
+    else:
+        starts = [*found, *_contenders(points, found, params, workers, far=far)]
     best = max(starts, key=_value)
     ways = [False] if _turned(best) or (best.rough and not _round(best)) else []
     ways += [True] if _blurred(best) and not best.fine else []
@@ -97,14 +106,14 @@ def _looks(
 
 
 def _contenders(
-    points: Floats, found: tuple[Start, ...], params: SegmentsParams, workers: Workers
+    points: Floats, found: tuple[Start, ...], params: SegmentsParams, workers: Workers, *, far: bool
 ) -> list[Start]:
     """First stacks along the directions next to the best, until one is plain."""
     others: list[Start] = []
     candidates = found[0].candidates
-    close = [k for k in _unlike(candidates)[1:] if _close(candidates[k], candidates[0])]
+    close = [k for k in _unlike(candidates)[1:] if far or _close(candidates[k], candidates[0])]
     for k in close[:CONTENDERS]:
-        if max([*found, *others], key=_value).plain:
+        if not far and max([*found, *others], key=_value).plain:
             break
         others += along(points, candidates[k].vector, _led_by(candidates, k), params, workers=workers)
     return others

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 from typing import TypeVar
 
 from sketchloft.cloud import Floats
-from sketchloft.exact.fit.climb import climb
 from sketchloft.exact.fit.likelihood import beside_walls, value_of
 from sketchloft.exact.fit.schwarz import price
-from sketchloft.exact.fit.sharpen import least_noise
+from sketchloft.exact.fit.sharpen import sharpened
 from sketchloft.exact.model.exact_model import ExactModel
 
 __all__ = ["as_many_as_pay", "fitted_if_it_pays", "telling"]
@@ -17,7 +17,8 @@ __all__ = ["as_many_as_pay", "fitted_if_it_pays", "telling"]
 BESIDE = 8.0
 """Noise deviations beside the walls within which points tell what a constraint costs."""
 
-STEPS = 12
+BLURRED = 8.0
+"""Noise, in that of a model, that a simpler one begins to be fitted with: it has some way to go."""
 
 T = TypeVar("T")
 
@@ -75,10 +76,10 @@ def fitted_if_it_pays(
     together : float
         How many of the points go together.
     """
-    near, least = telling(points, model), least_noise(model, len(points))
+    near = telling(points, model)
     value = value_of(near, model)
     for candidate in simpler:
-        fitted, _, _ = climb(near, candidate, STEPS, noise=True, least=least)
+        fitted, _, _ = sharpened(points, replace(candidate, sigma=BLURRED * candidate.sigma), tilt=False)
         saved = price(model.size - candidate.size, len(points), together)
         if value - value_of(near, fitted) < together * saved:
             return fitted

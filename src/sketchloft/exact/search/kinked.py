@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 
 from sketchloft.cloud import Floats
-from sketchloft.exact.fit.expected import empty_shell
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.kinks import end_outline, kink_ties, sole_wall
 from sketchloft.exact.model.surgery import with_run
@@ -22,8 +21,8 @@ from sketchloft.wall.swept import Swept
 
 __all__ = ["kinked"]
 
-NOISES, SHELLS = 4.0, 100.0
-"""Sections within so many noise deviations and expected empty shells of each other may be one."""
+NEAR, NOISES = 0.01, 4.0
+"""Sections may be one that are apart by so much of the size, and so many noise deviations, at most."""
 NODES = 64
 QUARTER = np.pi / 2
 
@@ -45,18 +44,17 @@ def kinked(points: Floats, model: ExactModel, together: float) -> ExactModel:
     A roof stands upon its house: without this a thin ledge would be left all around.
     """
     for k in range(1, len(model.stack.runs)):
-        model = fitted_if_it_pays(points, model, _bent(model, k, len(points)), together)
+        model = fitted_if_it_pays(points, model, _bent(model, k), together)
     return model
 
 
-def _bent(model: ExactModel, k: int, count: int) -> Iterator[ExactModel]:
+def _bent(model: ExactModel, k: int) -> Iterator[ExactModel]:
     """The model with one outline for the runs below and above a break, if their sections are near."""
     below, above = (sole_wall(run) for run in model.stack.runs[k - 1 : k + 1])
     if below is None or above is None or model.joins[k] != "step":
         return
     height = float(model.stack.breaks[k])
-    reach = NOISES * model.sigma + SHELLS * empty_shell(model, count)
-    if max(_apart(below, above, height), _apart(above, below, height)) > reach:
+    if max(_apart(below, above, height), _apart(above, below, height)) > NEAR + NOISES * model.sigma:
         return
     for run, wall, other, side in ((k, above, below, -1), (k - 1, below, above, 1)):
         moved = _moved_to(wall, other, height, side)

@@ -101,6 +101,15 @@ class Swept:
         return "drift" not in self.free and np.array_equal(centre_of(self.outline), self.pivot)  # type: ignore[arg-type]
 
     @property
+    def moves(self) -> tuple[Freedom, ...]:
+        """Which movements are parameters."""
+        return tuple(name for name in self.free if name != "height")
+
+    def moving(self, *moves: Freedom) -> Self:
+        """Return the wall with other movements as parameters; its height stays one if it is."""
+        return replace(self, free=(*moves, *(name for name in self.free if name == "height")))
+
+    @property
     def bows(self) -> bool:
         """Whether the sections shrink as those of a dome do."""
         return bool(self.bow) or "bow" in self.free

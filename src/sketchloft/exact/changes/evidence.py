@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 
 from sketchloft.cloud import Floats
+from sketchloft.exact.changes.bends import bends
 from sketchloft.exact.changes.change import Change, Key
 from sketchloft.exact.changes.filleted_walls import filleted
 from sketchloft.exact.changes.free_outlines import with_poles_that_pay
@@ -102,6 +103,7 @@ def _changed(
             model = through(model, changes)
         model = splined(points, model, together, failed=failed, workers=workers)
         model = through(model, lambda m: splits(points, m, together))
+        model = through(model, bends)
         model = through(model, swaps)
         if model is settled:
             break

@@ -28,7 +28,7 @@ from sketchloft.wall.revolved import Revolved, radius_at
 from sketchloft.wall.ruled import Ruled
 from sketchloft.wall.swept import Freedom, Swept
 
-__all__ = ["as_revolved", "profiles_like", "walls_like"]
+__all__ = ["as_revolved", "both_ways", "profiles_like", "walls_like"]
 
 HEIGHTS = 25
 TINY = 1e-12
@@ -56,6 +56,7 @@ def walls_like(wall: Wall, low: float, high: float) -> Iterator[Wall]:
     elif isinstance(wall, Swept):
         reshaped = (replace(wall, outline=outline) for outline in _outlines_like(wall.outline))
         yield from (other.about_centre() for other in chain(_moving_otherwise(wall), reshaped))
+        yield from both_ways(wall, low, high)
         if isinstance(wall.outline, Circle) and not np.any(wall.drift):
             z = np.linspace(low, high, HEIGHTS)
             for profile in profiles_like(z, wall.outline.radius * wall.scale(z)):
@@ -83,13 +84,25 @@ def _spheroids(centre: Floats, z: Floats, r: Floats) -> Iterator[Swept]:
 
 def _moving_otherwise(wall: Swept) -> Iterator[Swept]:
     """The wall with a movement less, and with one more."""
-    for name in wall.free:
+    for name in wall.moves:
         still: Floats | float = np.zeros(2) if name == "drift" else 0.0
-        free = tuple(other for other in wall.free if other != name)
-        yield replace(wall, free=free, **{name: still})  # type: ignore[arg-type]
+        left = wall.moving(*(other for other in wall.moves if other != name))
+        yield replace(left, **{name: still})  # type: ignore[arg-type]
     for more in MORE:
         if more not in wall.free:
-            yield replace(wall, free=(*wall.free, more))
+            yield wall.moving(*wall.moves, more)
+
+
+def both_ways(wall: Wall, low: float, high: float) -> Iterator[Ruled]:
+    """For a tapered rectangle: one whose sides may go by slopes of their own."""
+    if not isinstance(wall, Swept) or not isinstance(wall.outline, Rectangle) or wall.moves != ("taper",):
+        return
+    outline = wall.outline
+    below, above = (
+        Rectangle(wall.pivot, scale * outline.width, scale * outline.height, outline.angle)
+        for scale in wall.scale(np.array([low, high])).tolist()
+    )
+    yield Ruled(below, above, low, high)
 
 
 def profiles_like(z: Floats, r: Floats) -> Iterator[Profile]:

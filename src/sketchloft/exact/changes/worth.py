@@ -22,8 +22,8 @@ SLIT = 40.0
 """What a slit must gain: by chance there are no points in some that are thin enough."""
 LEANING = 4.0
 """Log odds against each way in which a wall is not straight and upright: by chance many are not by a hair."""
-BENT = {"cone": 1, "torus": 2}
-"""In how many ways walls of revolution are not: a designer draws a torus less often than a cone."""
+BENT = {"cone": 1, "torus": 2, "ruled": 2}
+"""In how many ways other walls are not: a designer draws a torus less often than a cone."""
 PER_RUN = 2
 """Parameters that a run is priced as, beside those of its walls."""
 DIRECTION = 2
@@ -56,7 +56,4 @@ def _is_ball(model: ExactModel) -> bool:
 def _leanings(run: Run) -> int:
     """In how many ways walls are not straight and upright that others of their kind are."""
     walls = run.walls[:1] if run.torus is not None else run.walls  # two halves are one thing
-    return sum(
-        len({*wall.free} - {"height"}) if isinstance(wall, Swept) else BENT.get(wall.kind, 0)
-        for wall in walls
-    )
+    return sum(len(wall.moves) if isinstance(wall, Swept) else BENT.get(wall.kind, 0) for wall in walls)

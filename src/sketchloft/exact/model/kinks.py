@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -10,11 +11,23 @@ from sketchloft.exact.model.exact_model import Tie
 from sketchloft.outline.chain_outline import ChainOutline
 from sketchloft.outline.outline import Outline
 from sketchloft.outline.placed_polygons import Rectangle
-from sketchloft.stack import Run
+from sketchloft.stack import Run, Wall
 from sketchloft.wall.ruled import Ruled
 from sketchloft.wall.swept import Swept
 
-__all__ = ["end_outline", "kink", "kink_ties", "sole_wall", "squared_ties", "with_kink"]
+__all__ = [
+    "end_outline",
+    "kink",
+    "kink_ties",
+    "moved_off",
+    "moved_to",
+    "sole_wall",
+    "squared_ties",
+    "with_kink",
+    "without_loose_heights",
+]
+
+QUARTER = np.pi / 2
 
 Walls = tuple[Swept | Ruled, Swept | Ruled]
 
@@ -76,6 +89,39 @@ def squared_ties(run: Run, j: int) -> list[Tie]:
     return [((j, 0, k), (j, 0, len(below) + k)) for k in shared]
 
 
+def moved_to(wall: Swept | Ruled, other: Swept | Ruled, height: float, side: int) -> Swept | Ruled | None:
+    """The wall upon the outline of one beyond its lower (-1) or upper (1) end, if it can be."""
+    if isinstance(wall, Ruled):
+        return _set_upon(wall, end_outline(other, -side), side)
+    if isinstance(other, Swept) and wall.free and "height" not in wall.free:
+        return moved_off(wall, other, height)
+    return None
+
+
+def _set_upon(wall: Ruled, outline: Outline | ChainOutline, side: int) -> Ruled | None:
+    """The wall between rectangles, one of them another one and the other turned as that is."""
+    near, far = (wall.bottom, wall.top) if side < 0 else (wall.top, wall.bottom)
+    if not (isinstance(near, Rectangle) and isinstance(far, Rectangle) and isinstance(outline, Rectangle)):
+        return None
+    quarters = round((outline.angle - far.angle) / QUARTER)
+    sides = (far.height, far.width) if quarters % 2 else (far.width, far.height)
+    centre = outline.centre if np.array_equal(near.centre, far.centre) else far.centre
+    turned = Rectangle(centre, *sides, outline.angle)
+    return (
+        replace(wall, bottom=outline, top=turned) if side < 0 else replace(wall, bottom=turned, top=outline)
+    )
+
+
+def moved_off(wall: Swept, other: Swept, height: float) -> Swept:
+    """The wall upon the outline of another one, so that both have the same section at a height."""
+    at = np.array([height])
+    here, there = float(wall.scale(at)[0]), float(other.scale(at)[0])
+    taper = wall.taper * there / here
+    start = height - (there - 1) / taper if taper else height
+    moved = replace(wall, outline=other.outline, height=start, taper=taper, free=(*wall.free, "height"))
+    return moved.about_centre()
+
+
 def with_kink(below: Run, above: Run) -> tuple[Run, Run]:
     """Free the height of one of two walls of the same outline, so that they may meet in a kink there."""
     first, last = _of_one_outline(below, above) or (None, None)
@@ -84,6 +130,23 @@ def with_kink(below: Run, above: Run) -> tuple[Run, Run]:
     if not last.still:
         return below, Run((_with_height(last),))
     return (below if first.still else Run((_with_height(first),))), above
+
+
+def without_loose_heights(runs: tuple[Run, ...]) -> tuple[Run, ...]:
+    """Hold the heights of walls that meet no other wall in a kink: they would say what the outline does."""
+    if not any(isinstance(wall, Swept) and "height" in wall.free for run in runs for wall in run.walls):
+        return runs
+    bent = [False, *(kink(*pair) is not None for pair in pairwise(runs)), False]
+    return tuple(
+        run if bent[j] or bent[j + 1] else Run(tuple(map(_with_height_held, run.walls)), run.holes)
+        for j, run in enumerate(runs)
+    )
+
+
+def _with_height_held(wall: Wall) -> Wall:
+    if not isinstance(wall, Swept):
+        return wall
+    return replace(wall, free=tuple(name for name in wall.free if name != "height"))
 
 
 def _of_one_outline(below: Run, above: Run) -> Walls | None:

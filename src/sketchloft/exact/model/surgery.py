@@ -9,7 +9,7 @@ import numpy as np
 
 from sketchloft.exact.model.exact_model import ExactModel, Tie, halves, model_of, tied
 from sketchloft.exact.model.joins import natural_joins, sole_profile
-from sketchloft.exact.model.kinks import kink_ties, squared_ties
+from sketchloft.exact.model.kinks import kink_ties, squared_ties, without_loose_heights
 from sketchloft.stack import Run, Stack, Wall
 
 __all__ = ["RADIUS", "with_run", "with_runs", "with_split", "with_wall", "without_run"]
@@ -53,6 +53,7 @@ def without_run(model: ExactModel, index: int, heir: int | None) -> ExactModel:
 
 
 def _rebuilt(model: ExactModel, stack: Stack) -> ExactModel:
+    stack = replace(stack, runs=without_loose_heights(stack.runs))
     fresh = model_of(stack, model.sigma, model.density, model.stray, model.space)
     ties = [tie for j, run in enumerate(stack.runs) if run.torus is not None for tie in halves(j)]
     ties += [tie for j, run in enumerate(stack.runs) for tie in squared_ties(run, j)]

@@ -19,6 +19,8 @@ from sketchloft.errors import InputError, OutputError, UsageError
 from sketchloft.exact.model.density import Density
 from sketchloft.exact.model.exact_model import ExactModel, model_of, tied
 from sketchloft.exact.model.joins import joined
+from sketchloft.exact.model.kinks import with_kink
+from sketchloft.exact.model.surgery import with_run
 from sketchloft.exact.planned import planned_body
 from sketchloft.frame import Frame
 from sketchloft.outline.circle import Circle
@@ -89,6 +91,7 @@ WALLS: list[Wall] = [
     Ruled(Polygon(ELL), LineArc(0.8 * ELL, BULGES, BULGES != 0), -0.3, 0.3),
     Ruled(Rectangle(CENTRE, 0.4, 0.3, 0.4), DividedCircle(CENTRE, 0.15, 1.1, -0.1), -0.3, 0.3),
     Ruled(DividedCircle(CENTRE, 0.15, 1.1, -0.1), Rectangle(CENTRE, 0.4, 0.3, 0.4), -0.3, 0.3),
+    Ruled(Rectangle(CENTRE, 0.4, 0.3, 0.4), Rectangle(np.zeros(2), 0.2, 0.25, 0.3), -0.3, 0.3),
     *(Swept(outline, 0.1, np.zeros(2), np.zeros(2)) for outline in OUTLINES),
     *(
         Swept(
@@ -221,6 +224,41 @@ def test_joins_and_ties_come_back() -> None:
     assert text.count('centre = "axis"') == 3
     assert_same(bullet(), back(text))
     assert_same(bullet(), back(plan_text(parse_plan(text))))
+
+
+def house(*, both_ways: bool) -> ExactModel:
+    """A box under a roof that leaves its outline."""
+    box = Rectangle(CENTRE, 0.4, 0.3, 0.4)
+    roof: Wall = Swept(box, 0.05, CENTRE, np.zeros(2), -0.8, 0.0, ("taper",))
+    if both_ways:
+        roof = Ruled(box, Rectangle(CENTRE, 0.2, 0.05, 0.4), 0.05, 0.3)
+    base = model(Run((prism_on(box),)), Run((prism_on(FLOWER),)), breaks=np.array([-0.3, 0.05, 0.3]))
+    above = Run((roof,)) if both_ways else with_kink(base.stack.runs[0], Run((roof,)))[1]
+    return with_run(base, 1, above)
+
+
+def prism_on(outline: Outline) -> Swept:
+    return Swept(outline, 0.0, CENTRE, np.zeros(2))
+
+
+@pytest.mark.parametrize("both_ways", [False, True])
+def test_a_roof_and_what_it_stands_on_come_back(*, both_ways: bool) -> None:
+    found = house(both_ways=both_ways)
+    text = text_of(found)
+    assert found.joins[1] == ("step" if both_ways else "cross")
+    assert found.size == 7  # of the box five; and a slope and a height, or two sides
+    names = ["angle", "bottom_angle", "top_angle"] if both_ways else ["angle"] * 2
+    assert all(f'{name} = "angle"' in text for name in names)
+    assert_same(found, back(text))
+
+
+def test_the_break_below_a_roof_goes_with_its_height() -> None:
+    text = text_of(house(both_ways=False))
+    higher = re.sub(r"^height = \S+\ntaper", "height = 0.7\ntaper", text, flags=re.MULTILINE)
+    assert back(higher).stack.breaks[1] == pytest.approx(0.1)
+    straight = re.sub(r"^taper = \S+", "", text, flags=re.MULTILINE)
+    with pytest.raises(InputError, match=r'found join = "cross", but .* do not cross there'):
+        back(straight)
 
 
 def test_breaks_follow_their_walls_when_these_are_edited() -> None:

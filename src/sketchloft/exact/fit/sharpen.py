@@ -14,7 +14,7 @@ from sketchloft.exact.fit.fit_density import fit_density
 from sketchloft.exact.fit.likelihood import beside_walls, value_of
 from sketchloft.exact.model.exact_model import ExactModel, thicker
 
-__all__ = ["least_noise", "sharpened"]
+__all__ = ["Judged", "judged", "least_noise", "sharpened"]
 
 Bools = NDArray[np.bool_]
 Thinned = tuple[Floats, int]
@@ -55,22 +55,22 @@ def sharpened(points: Floats, model: ExactModel, *, tilt: bool) -> tuple[ExactMo
     floor = least_noise(model, len(points))
     turn, sigma = np.eye(3), model.sigma
     sample = _thinned(points, MOST_POINTS)
-    band, judged = points, _Judged(points, 1, points[:0], 0.0)
+    band, last = points, Judged(points, 1, points[:0], 0.0)
     while True:
         before = model
         model = replace(model, sigma=sigma)
         beside = beside_walls(band @ turn, model, BESIDE * sigma)
-        band, near = band[beside], _judged(points, band, beside)
+        band, near = band[beside], judged(points, band, beside)
         model, turned = _fitted((near.points, near.every), sample, model, turn, tilt=tilt)
-        if sigma < before.sigma and _value(judged, model, turned) <= _value(judged, before, turn):
+        if sigma < before.sigma and last.value(model, turned) <= last.value(before, turn):
             model = before
             break
-        turn, judged = turned, near
+        turn, last = turned, near
         if sigma <= floor:
             break
         sigma = max(sigma / 2, floor)
-    last = points[beside_walls(points @ turn, model, BESIDE * 1.5 * model.sigma)]
-    model, turn = _fitted(_thinned(last, MOST_BESIDE), sample, model, turn, tilt=tilt, least=floor)
+    telling = points[beside_walls(points @ turn, model, BESIDE * 1.5 * model.sigma)]
+    model, turn = _fitted(_thinned(telling, MOST_BESIDE), sample, model, turn, tilt=tilt, least=floor)
     return model, points @ turn, turn
 
 
@@ -103,24 +103,34 @@ def _thinned(points: Floats, most: int) -> Thinned:
 
 
 @dataclass(frozen=True)
-class _Judged:
-    """Every so many of the points beside the walls, and some inside that each stand for a number."""
+class Judged:
+    """What models of about the same walls are judged by: points beside these, and some that are inside.
+
+    Parameters
+    ----------
+    points : (n, 3) float array
+        Every so many of those beside the walls.
+    every : int
+    inside : (m, 3) float array
+    each : float
+        How many of them each of those inside stands for.
+    """
 
     points: Floats
     every: int
     inside: Floats
     each: float
 
+    def value(self, model: ExactModel, turn: Floats) -> float:
+        """Log likelihood of the points, turned."""
+        thin = thicker(model, 1 / self.every)
+        inside = np.log(thin.density.at(self.inside @ turn) + thin.stray)
+        return value_of(self.points @ turn, thin) + self.each * float(inside.sum())
 
-def _judged(points: Floats, band: Floats, beside: Bools) -> _Judged:
+
+def judged(points: Floats, band: Floats, beside: Bools) -> Judged:
+    """What models are judged by, of a band (n, 3) of all points where it lies beside the walls."""
     near, every = _thinned(band[beside], MOST_BESIDE)
     inside, _ = _thinned(band[~beside], MOST_POINTS)
     missing = len(points) - int(beside.sum())
-    return _Judged(near, every, inside, missing / every / max(len(inside), 1))
-
-
-def _value(judged: _Judged, model: ExactModel, turn: Floats) -> float:
-    """Log likelihood of points, turned."""
-    thin = thicker(model, 1 / judged.every)
-    inside = np.log(thin.density.at(judged.inside @ turn) + thin.stray)
-    return value_of(judged.points @ turn, thin) + judged.each * float(inside.sum())
+    return Judged(near, every, inside, missing / every / max(len(inside), 1))

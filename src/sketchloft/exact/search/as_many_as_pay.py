@@ -6,10 +6,12 @@ from collections.abc import Callable, Iterable
 from dataclasses import replace
 from typing import TypeVar
 
+import numpy as np
+
 from sketchloft.cloud import Floats
 from sketchloft.exact.fit.likelihood import beside_walls, value_of
 from sketchloft.exact.fit.schwarz import price
-from sketchloft.exact.fit.sharpen import sharpened
+from sketchloft.exact.fit.sharpen import judged, sharpened
 from sketchloft.exact.model.exact_model import ExactModel
 
 __all__ = ["as_many_as_pay", "fitted_if_it_pays", "telling"]
@@ -76,11 +78,12 @@ def fitted_if_it_pays(
     together : float
         How many of the points go together.
     """
-    near = telling(points, model)
-    value = value_of(near, model)
+    seen = judged(points, points, beside_walls(points, model, BESIDE * model.sigma))
+    still = np.eye(3)
+    value = seen.value(model, still)
     for candidate in simpler:
         fitted, _, _ = sharpened(points, replace(candidate, sigma=BLURRED * candidate.sigma), tilt=False)
         saved = price(model.size - candidate.size, len(points), together)
-        if value - value_of(near, fitted) < together * saved:
+        if seen.every * (value - seen.value(fitted, still)) < together * saved:
             return fitted
     return model

@@ -14,9 +14,10 @@ LEGEND = """\
 # the centre and in the unit of the cloud; direction, x_axis and centre are in the cloud's own coordinates.
 # Breaks, from low to high, are where the runs end, one break more than runs. A step is a plane at its
 # height. The height of the others follows from the walls, near the one written: they cross, one is an arc
-# that ends tangent to a line, or an arc meets the axis, or the other half of its torus, in a pole. To move
-# such a break yourself, make it { height = ..., join = "step" }. To take out a run, take out one of the
-# breaks beside it too.
+# that ends tangent to a line, or an arc meets the axis, or the other half of its torus, in a pole. Of two
+# walls that share an outline the one that tapers, drifts or twists leaves the other one at its own height;
+# edit that. To move another such break yourself, make it { height = ..., join = "step" }. To take out a run,
+# take out one of the breaks beside it too.
 #
 # A run has one wall or more; walls with hole = true bound holes and come last. To close a hole, take out its
 # wall. To change what a wall is, change its kind and give the keys of that kind:

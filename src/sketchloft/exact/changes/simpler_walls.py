@@ -21,6 +21,7 @@ from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.spline_loop import SplineLoop
 from sketchloft.outline.stadium import Stadium, stadium_like
 from sketchloft.outline.star import Star, star_of
+from sketchloft.outline.with_arc import with_an_arc
 from sketchloft.stack import Wall
 from sketchloft.wall.dome import taper_and_bow
 from sketchloft.wall.profile import ArcProfile, LineProfile, Profile, SplineProfile
@@ -134,6 +135,8 @@ def _outlines_like(outline: Outline) -> Iterator[Outline]:
     polygon = _corners_of(outline)
     if polygon is not None and not isinstance(outline, Polygon):
         yield polygon
+    if isinstance(outline, (Polygon, RectilinearPolygon)):
+        yield from with_an_arc(polygon.vertices if polygon is not None else outline.chain()[0])
     if not isinstance(outline, (Rectangle, Circle, Star)):
         for other in polygons(ring, polygon, float(np.sqrt(outline.area)) * 0.05):
             if type(other) is not type(outline):

@@ -33,6 +33,12 @@ class Density:
         terms = self.terms(points, len(self.coefficients))
         return np.asarray(np.exp(np.clip(terms @ self.coefficients, -STEEPEST, STEEPEST)), dtype=np.float64)
 
+    def times(self, factor: float) -> Density:
+        """The density of so many times as many points."""
+        coefficients = self.coefficients.copy()
+        coefficients[0] += np.log(factor)
+        return Density(coefficients)
+
     @staticmethod
     def terms(points: Floats, count: int) -> Floats:
         """Values (n, count) of the polynomial's terms."""

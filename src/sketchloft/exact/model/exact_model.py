@@ -92,9 +92,7 @@ class ExactModel:
 
 def thicker(model: ExactModel, factor: float) -> ExactModel:
     """Return the model of a cloud with so many times as many points."""
-    coefficients = model.density.coefficients.copy()
-    coefficients[0] += np.log(factor)
-    return replace(model, density=Density(coefficients), stray=model.stray * factor)
+    return replace(model, density=model.density.times(factor), stray=model.stray * factor)
 
 
 def model_of(stack: Stack, sigma: float, density: Density, stray: float, space: float) -> ExactModel:

@@ -76,7 +76,7 @@ def segment_run(
         shape = recognise_section(view.points, together, rough=rough, workers=workers)
         runs += [] if shape is None else _runs(view, shape, ends, turns)
     every = len(points) // MOST_POINTS + 1
-    points, together = points[::every], thinned(together, every)
+    points, together, density = points[::every], thinned(together, every), density.times(1 / every)
     best: tuple[float, ExactModel] | None = None
     for model in workers.each(_fitted, [(points, run, ends, sigma, density) for run in runs]):
         walls = model.stack.runs[0].walls

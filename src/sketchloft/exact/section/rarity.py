@@ -25,8 +25,9 @@ RARE = 6.0
 """Log odds against other outlines of up to six edges, and against a rectangle with one radius, a star and one
 of right corners, of which there are more to be taken for one by chance; one more for each further line, two
 for each arc."""
-REGULAR = 2.0
-"""The same against a regular polygon: its one size leaves it little to be taken for one by chance."""
+REGULAR, SQUARE, HEXAGON = 4.0, 0.0, 2.0
+"""The same against a regular polygon: its one size leaves it little to be taken for one by chance. A square is
+one with no odds against it, and hexagons are drawn more often than others."""
 ODD = 3.0
 """Log odds against each end of an arc at an odd angle."""
 LAST = 12.0
@@ -42,7 +43,7 @@ def rarity(outline: Outline) -> float:
     if isinstance(outline, (RectilinearPolygon, RoundedRectangle, Stadium, Star)):
         return RARE
     if isinstance(outline, RegularPolygon):
-        return REGULAR
+        return {4: SQUARE, 6: HEXAGON}.get(outline.sides, REGULAR)
     edges = sum(2.0 if isinstance(edge, Arc) else 1.0 for edge in outline.edges())
     if isinstance(outline, LineArc):
         edges += ODD * odd_corners(outline)

@@ -26,8 +26,8 @@ RARE = 6.0
 of right corners, of which there are more to be taken for one by chance; one more for each further line, two
 for each arc."""
 REGULAR, SQUARE, HEXAGON = 4.0, 0.0, 2.0
-"""The same against a regular polygon: its one size leaves it little to be taken for one by chance. A square is
-one with no odds against it, and hexagons are drawn more often than others."""
+"""The same against a regular polygon: its one size leaves it little to be taken for one by chance. A square
+has no odds against it, and hexagons are drawn more often than others."""
 ODD = 3.0
 """Log odds against each end of an arc at an odd angle."""
 LAST = 12.0

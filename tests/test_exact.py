@@ -209,6 +209,30 @@ def test_a_tube_keeps_its_hole() -> None:
     assert body.facts.volume == pytest.approx(np.pi * (3**2 - 1.5**2) * 12, rel=0.01)
 
 
+def test_a_funnel_as_thin_as_a_tenth_of_its_width_keeps_its_hole() -> None:
+    points = np.random.default_rng(5).uniform([-4, -4, 0], [4, 4, 5], (16 * N, 3))
+    far, rim = np.hypot(points[:, 0], points[:, 1]), 1.2 + 2.8 * points[:, 2] / 5
+    body = built(points[(far < rim) & (far > rim - 0.5)][:N])
+    assert body.facts.faces == {"ConicalSurface": 2, "Plane": 2}
+    assert body.model.stack.runs[0].holes == 1
+    assert body.facts.volume == pytest.approx(np.pi * 5 * 0.5 * (1.2 + 4 - 0.5), rel=0.02)
+
+
+@SLOW
+def test_a_drop_that_was_seen_as_one_is_no_ellipse_in_the_end() -> None:
+    """At the noise that blurs the evidence it would be one."""
+    rng = np.random.default_rng(1)
+    points = rng.uniform([-3, -4.5, 0], [3, 2.3, 4], (80 * N, 3))
+    x, y = points[:, :2].T
+    angle = np.arctan2(y / 1.3, x)
+    radius = 2.5 * (1 - 0.35 * np.sin(angle))
+    inside = np.hypot(x, y / 1.3) < radius
+    kept = rng.uniform(size=len(points)) < 1 / 6 + 5 / 6 * (y + 4.5) / 6.8  # six times as many at one end
+    body = built(points[inside & kept][: 2 * N])
+    assert kinds(body) != [["ellipse"]]
+    assert body.facts.volume == pytest.approx(4 * 1.3 * np.pi * 2.5**2 * (1 + 0.35**2 / 2), rel=0.005)
+
+
 @pytest.mark.parametrize("fill", [FillParams(), NOISY], ids=["even", "noisy"])
 def test_a_ring_is_one_torus(fill: FillParams) -> None:
     rng = np.random.default_rng(8)

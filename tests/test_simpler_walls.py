@@ -12,6 +12,7 @@ from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.placed_polygons import Rectangle
 from sketchloft.outline.polygons import Polygon
 from sketchloft.outline.stadium import Stadium
+from sketchloft.outline.with_arc import with_an_arc
 from sketchloft.wall.ruled import Ruled
 from sketchloft.wall.swept import Swept
 
@@ -33,6 +34,20 @@ def test_a_cut_corner_is_tried_whole(corner: int) -> None:
     whole = [other.vertices for other in others if isinstance(other, Polygon) and len(other.vertices) == 6]
     gaps = [np.linalg.norm(found[:, None] - ELL, axis=2).min(axis=0).max() for found in whole]
     assert min(gaps) < 1e-12
+
+
+@pytest.mark.parametrize("sweep", [1.5, 2.5, np.pi])
+def test_chords_of_an_arc_are_tried_as_that_arc(sweep: float) -> None:
+    """Three equal chords on the top of a block stand for an arc that swells or is cut out."""
+    half = np.sin(sweep / 2)
+    for side in (1, -1):
+        along = (np.arange(4) / 3 - 0.5) * sweep
+        arc = np.column_stack([-np.sin(along[::-1]), side * (np.cos(along) - np.cos(sweep / 2))])[::-1]
+        block = np.array([[-half, 0.0], [-half, -2.0], [half, -2.0]])
+        vertices = np.vstack([block, arc[:-1]])
+        found = [o for o in with_an_arc(vertices) if len(o.vertices) == len(vertices) - 2]
+        bulges = np.concatenate([o.bulges[o.curved] for o in found])
+        assert np.abs(bulges - side * np.tan(sweep / 4)).min() < 1e-9
 
 
 @pytest.mark.parametrize("turn", [-0.6, 0.0, 0.4])

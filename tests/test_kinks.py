@@ -15,7 +15,8 @@ from sketchloft.exact.body import ExactBody
 from sketchloft.exact.changes.bends import bends
 from sketchloft.exact.model.density import Density
 from sketchloft.exact.model.exact_model import ExactModel, model_of
-from sketchloft.exact.model.kinks import kink, moved_off, with_kink
+from sketchloft.exact.model.kinks import kink, with_kink
+from sketchloft.exact.model.set_upon import moved_off
 from sketchloft.exact.model.surgery import with_run
 from sketchloft.exact.search.kinked import kinked
 from sketchloft.exact.search.squared import squared

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -62,17 +62,8 @@ def dimensions(wall: Wall, low: float, high: float) -> tuple[Dimension, ...]:
         case Swept():
             size = float(wall.scale(np.array([low]))[0])
             return (*_outline(wall.outline, size, wall.twist * (low - wall.height)), *_moves(wall, low, high))
-        case Ruled(Rectangle() as one, DividedCircle() as other) | Ruled(
-            DividedCircle() as one, Rectangle() as other
-        ):
-            return (*_outline(one, 1.0, 0.0), *_outline(other, 1.0, 0.0))
         case Ruled():
-            below, above = wall.area(np.array([low, high])).tolist()
-            return (
-                _count("edges", len(wall.bottom.chain()[1])),
-                Dimension("area below", below, "area"),
-                Dimension("area above", above, "area"),
-            )
+            return _ruled(wall, low, high)
         case Filleted():
             fillet = () if wall.fillet is None else (Dimension("fillets at the ends", wall.fillet),)
             return (*_outline(wall.outline, 1.0, 0.0), *fillet)
@@ -119,6 +110,24 @@ def _revolved(wall: Revolved, low: float, high: float) -> tuple[Dimension, ...]:
             }
             found = tuple(Dimension(name, float(radius)) for name, radius in named.items())
             return (*found, _count("poles", len(wall.profile.radii)))
+
+
+def _ruled(wall: Ruled, low: float, high: float) -> tuple[Dimension, ...]:
+    match wall.bottom, wall.top:
+        case (Rectangle() as one, DividedCircle() as other) | (DividedCircle() as one, Rectangle() as other):
+            return (*_outline(one, 1.0, 0.0), *_outline(other, 1.0, 0.0))
+        case (Rectangle() as one, Rectangle() as other):
+            return tuple(
+                replace(found, name=f"{found.name} {end}")
+                for end, outline in (("below", one), ("above", other))
+                for found in _outline(outline, 1.0, 0.0)
+            )
+    below, above = wall.area(np.array([low, high])).tolist()
+    return (
+        _count("edges", len(wall.bottom.chain()[1])),
+        Dimension("area below", below, "area"),
+        Dimension("area above", above, "area"),
+    )
 
 
 def _outline(outline: Outline, size: float, turned: float) -> tuple[Dimension, ...]:

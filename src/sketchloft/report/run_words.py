@@ -9,6 +9,7 @@ import numpy as np
 
 from sketchloft.cloud import Unit
 from sketchloft.exact.model.exact_model import ExactModel
+from sketchloft.exact.model.kinks import kink_ties
 from sketchloft.report.dimensions import Dimension
 from sketchloft.report.pose import Pose
 from sketchloft.report.words import MINUS, TIMES, number
@@ -45,9 +46,12 @@ def kinds(names: Sequence[str]) -> str:
 
 def break_words(model: ExactModel, index: int) -> str:
     """What a break is, in a word or two."""
-    join = model.joins[index]
-    at_end = index in (0, len(model.joins) - 1)
-    return "flat end" if at_end and join == "step" else join
+    join, runs = model.joins[index], model.stack.runs
+    if join != "step":
+        return join
+    if index in (0, len(runs)):
+        return "flat end"
+    return "cross" if kink_ties(runs[index - 1], runs[index], index) else "step"
 
 
 def turn_of(pose: Pose) -> float:

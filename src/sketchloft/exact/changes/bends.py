@@ -10,7 +10,8 @@ import numpy as np
 from sketchloft.exact.changes.change import Change
 from sketchloft.exact.changes.simpler_walls import both_ways
 from sketchloft.exact.model.exact_model import ExactModel
-from sketchloft.exact.model.kinks import kink, kink_ties, moved_off, moved_to, sole_wall
+from sketchloft.exact.model.kinks import kink, kink_ties, sole_wall
+from sketchloft.exact.model.set_upon import moved_off, set_upon
 from sketchloft.exact.model.surgery import with_run, with_split
 from sketchloft.stack import Run
 from sketchloft.wall.swept import Swept
@@ -49,7 +50,7 @@ def _upon_each_other(model: ExactModel) -> Iterator[Change]:
             continue
         height = float(model.stack.breaks[k])
         for j, wall, other, side in ((k, above, below, -1), (k - 1, below, above, 1)):
-            moved = moved_to(wall, other, height, side)
+            moved = set_upon(wall, other, height, side)
             low, high = model.stack.breaks[j : j + 2].tolist()
             for one in () if moved is None else (moved, *both_ways(moved, low, high)):
                 bent = with_run(model, j, Run((one,)))

@@ -19,15 +19,11 @@ __all__ = [
     "end_outline",
     "kink",
     "kink_ties",
-    "moved_off",
-    "moved_to",
     "sole_wall",
     "squared_ties",
     "with_kink",
     "without_loose_heights",
 ]
-
-QUARTER = np.pi / 2
 
 Walls = tuple[Swept | Ruled, Swept | Ruled]
 
@@ -87,39 +83,6 @@ def squared_ties(run: Run, j: int) -> list[Tie]:
         return []
     shared = [0, 1, 4] if np.array_equal(below[:2], above[:2]) else [4]
     return [((j, 0, k), (j, 0, len(below) + k)) for k in shared]
-
-
-def moved_to(wall: Swept | Ruled, other: Swept | Ruled, height: float, side: int) -> Swept | Ruled | None:
-    """The wall upon the outline of one beyond its lower (-1) or upper (1) end, if it can be."""
-    if isinstance(wall, Ruled):
-        return _set_upon(wall, end_outline(other, -side), side)
-    if isinstance(other, Swept) and wall.free and "height" not in wall.free:
-        return moved_off(wall, other, height)
-    return None
-
-
-def _set_upon(wall: Ruled, outline: Outline | ChainOutline, side: int) -> Ruled | None:
-    """The wall between rectangles, one of them another one and the other turned as that is."""
-    near, far = (wall.bottom, wall.top) if side < 0 else (wall.top, wall.bottom)
-    if not (isinstance(near, Rectangle) and isinstance(far, Rectangle) and isinstance(outline, Rectangle)):
-        return None
-    quarters = round((outline.angle - far.angle) / QUARTER)
-    sides = (far.height, far.width) if quarters % 2 else (far.width, far.height)
-    centre = outline.centre if np.array_equal(near.centre, far.centre) else far.centre
-    turned = Rectangle(centre, *sides, outline.angle)
-    return (
-        replace(wall, bottom=outline, top=turned) if side < 0 else replace(wall, bottom=turned, top=outline)
-    )
-
-
-def moved_off(wall: Swept, other: Swept, height: float) -> Swept:
-    """The wall upon the outline of another one, so that both have the same section at a height."""
-    at = np.array([height])
-    here, there = float(wall.scale(at)[0]), float(other.scale(at)[0])
-    taper = wall.taper * there / here
-    start = height - (there - 1) / taper if taper else height
-    moved = replace(wall, outline=other.outline, height=start, taper=taper, free=(*wall.free, "height"))
-    return moved.about_centre()
 
 
 def with_kink(below: Run, above: Run) -> tuple[Run, Run]:

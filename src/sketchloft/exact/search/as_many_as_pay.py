@@ -78,10 +78,13 @@ def fitted_if_it_pays(
     together : float
         How many of the points go together.
     """
+    candidates = list(simpler)
+    if not candidates:
+        return model
     seen = judged(points, points, beside_walls(points, model, BESIDE * model.sigma))
     still = np.eye(3)
     value = seen.value(model, still)
-    for candidate in simpler:
+    for candidate in candidates:
         fitted, _, _ = sharpened(points, replace(candidate, sigma=BLURRED * candidate.sigma), tilt=False)
         saved = price(model.size - candidate.size, len(points), together)
         if seen.every * (value - seen.value(fitted, still)) < together * saved:

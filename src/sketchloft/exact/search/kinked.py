@@ -8,7 +8,8 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.exact.model.exact_model import ExactModel
-from sketchloft.exact.model.kinks import kink_ties, moved_to, sole_wall
+from sketchloft.exact.model.kinks import kink_ties, sole_wall
+from sketchloft.exact.model.set_upon import set_upon
 from sketchloft.exact.model.surgery import with_run
 from sketchloft.exact.search.as_many_as_pay import fitted_if_it_pays
 from sketchloft.stack import Run, section_boundary
@@ -52,7 +53,7 @@ def _bent(model: ExactModel, k: int) -> Iterator[ExactModel]:
     if max(_apart(below, above, height), _apart(above, below, height)) > NEAR + NOISES * model.sigma:
         return
     for run, wall, other, side in ((k, above, below, -1), (k - 1, below, above, 1)):
-        moved = moved_to(wall, other, height, side)
+        moved = set_upon(wall, other, height, side)
         bent = None if moved is None else with_run(model, run, Run((moved,)))
         if bent is not None and kink_ties(bent.stack.runs[k - 1], bent.stack.runs[k], k):
             yield bent

@@ -22,8 +22,8 @@ def looks(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     found: list[int] = []
     ask = choose_start.other_starts
 
-    def counted(*given: object) -> tuple[Start, ...]:
-        others = ask(*given)  # type: ignore[arg-type]
+    def counted(*given: object, **how: object) -> tuple[Start, ...]:
+        others = ask(*given, **how)  # type: ignore[arg-type]
         found.append(len(others))
         return others
 

@@ -8,7 +8,6 @@ from functools import partial
 from sketchloft.cloud import Floats
 from sketchloft.exact.fit.clear import CLEAR
 from sketchloft.exact.model.exact_model import ExactModel
-from sketchloft.exact.search.explained import AT_LEAST
 from sketchloft.exact.search.found import Found
 from sketchloft.exact.search.search import search
 from sketchloft.exact.start.choose_start import along, apart, other_starts
@@ -31,8 +30,6 @@ HOPELESS = 0.0095
 """That of a first stack, above which a search from it hardly ever ends well."""
 WRONG = 15.0
 """Misfit above which those of an even cloud may be."""
-AS_SHARP = 1.25
-"""Noise of another first stack of an even cloud, in that of the best end, from which on it is none better."""
 LEDGE = 0.02
 """Share of a section that jumps at a step."""
 
@@ -153,8 +150,7 @@ def _further(end: Found, others: list[Start]) -> list[Start]:
     if not others:
         return []
     if end.start.together == 1:
-        most = AS_SHARP * max(end.model.sigma, AT_LEAST)
-        return [start for start in others if start.merged.sigma < most][:1] if _doubtful(end) else []
+        return others[:1] if _doubtful(end) else []
     if end.model.sigma < _blurred(end.model):
         return []
     sharpest = min(others, key=lambda start: start.merged.sigma)

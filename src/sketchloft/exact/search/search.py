@@ -50,5 +50,9 @@ def search(
     if start.together > 1 or worth(rising(start.sample), first, start.together, count) < found.value:
         return found
     sharp = improved(start.sample, first, start.together, lofts=lofts, workers=workers)
-    other = finished(start, sharp, np.eye(3), tilt=tilt, lofts=lofts, progress=progress, workers=workers)
+    other = finished(start, sharp, np.eye(3), tilt=tilt, lofts=lofts, progress=_unsaid, workers=workers)
     return max(found, other, key=lambda end: end.value)
+
+
+def _unsaid(_: str) -> None:
+    """Tell no stage: the fit has been told of."""

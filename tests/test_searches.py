@@ -80,7 +80,6 @@ def test_the_direction_of_an_end_is_that_of_the_model() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", [1, 2])
-@pytest.mark.xfail(reason="a pile of prisms again since ends are bent in the search; to be mended")
 def test_a_noisy_hopper_is_not_left_a_pile_of_prisms(seed: int) -> None:
     """Seen from its side, which is where the likeliest direction is, as three runs with corners."""
     rng = np.random.default_rng(seed)

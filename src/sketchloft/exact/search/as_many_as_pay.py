@@ -19,8 +19,9 @@ __all__ = ["as_many_as_pay", "fitted_if_it_pays", "telling"]
 BESIDE = 8.0
 """Noise deviations beside the walls within which points tell what a constraint costs."""
 
-BLURRED = 8.0
-"""Noise, in that of a model, that a simpler one begins to be fitted with: it has some way to go."""
+BLURRED, MOST_NOISE = 8.0, 0.006
+"""Noise, in that of a model, that a simpler one begins to be fitted with, as it has some way to go; and where
+that has less, the most of it: blurred walls leave their places."""
 
 T = TypeVar("T")
 
@@ -85,7 +86,8 @@ def fitted_if_it_pays(
     still = np.eye(3)
     value = seen.value(model, still)
     for candidate in candidates:
-        fitted, _, _ = sharpened(points, replace(candidate, sigma=BLURRED * candidate.sigma), tilt=False)
+        blurred = replace(candidate, sigma=min(BLURRED * model.sigma, max(model.sigma, MOST_NOISE)))
+        fitted, _, _ = sharpened(points, blurred, tilt=False)
         saved = price(model.size - candidate.size, len(points), together)
         if seen.every * (value - seen.value(fitted, still)) < together * saved:
             return fitted

@@ -58,7 +58,8 @@ def other_starts(
     params : SegmentsParams
     workers : Workers, optional
     far : bool
-        Whether an even cloud has so much against what was found that directions may be far behind.
+        Whether an even cloud has so much against what was found that, where no direction is close behind,
+        those far behind are looked at.
 
     Returns
     -------
@@ -108,12 +109,13 @@ def _looks(
 def _contenders(
     points: Floats, found: tuple[Start, ...], params: SegmentsParams, workers: Workers, *, far: bool
 ) -> list[Start]:
-    """First stacks along the directions next to the best, until one is plain."""
+    """First stacks along the directions next to the best, until one is plain; or along those far behind."""
     others: list[Start] = []
     candidates = found[0].candidates
-    close = [k for k in _unlike(candidates)[1:] if far or _close(candidates[k], candidates[0])]
-    for k in close[:CONTENDERS]:
-        if not far and max([*found, *others], key=_value).plain:
+    unlike = _unlike(candidates)[1:]
+    close = [k for k in unlike if _close(candidates[k], candidates[0])]
+    for k in (close or (unlike if far else []))[:CONTENDERS]:
+        if close and max([*found, *others], key=_value).plain:
             break
         others += along(points, candidates[k].vector, _led_by(candidates, k), params, workers=workers)
     return others

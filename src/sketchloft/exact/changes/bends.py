@@ -10,9 +10,9 @@ import numpy as np
 from sketchloft.exact.changes.change import Change
 from sketchloft.exact.changes.simpler_walls import both_ways
 from sketchloft.exact.model.exact_model import ExactModel
-from sketchloft.exact.model.kinks import kink, kink_ties, sole_wall
-from sketchloft.exact.model.set_upon import moved_off, set_upon
-from sketchloft.exact.model.surgery import with_run, with_split
+from sketchloft.exact.model.kinks import kink, sole_wall
+from sketchloft.exact.model.set_upon import moved_off, set_upon_each_other, with_bend
+from sketchloft.exact.model.surgery import with_split
 from sketchloft.stack import Run
 from sketchloft.wall.swept import Swept
 
@@ -45,14 +45,9 @@ def bends(model: ExactModel) -> Iterator[Change]:
 def _upon_each_other(model: ExactModel) -> Iterator[Change]:
     """Walls of neighbouring runs, one of them from the outline of the other one."""
     for k in range(1, len(model.stack.runs)):
-        below, above = (sole_wall(run) for run in model.stack.runs[k - 1 : k + 1])
-        if below is None or above is None or model.joins[k] != "step":
-            continue
-        height = float(model.stack.breaks[k])
-        for j, wall, other, side in ((k, above, below, -1), (k - 1, below, above, 1)):
-            moved = set_upon(wall, other, height, side)
+        for j, moved in set_upon_each_other(model, k):
             low, high = model.stack.breaks[j : j + 2].tolist()
-            for one in () if moved is None else (moved, *both_ways(moved, low, high)):
-                bent = with_run(model, j, Run((one,)))
-                if kink_ties(bent.stack.runs[k - 1], bent.stack.runs[k], k):
+            for wall in (moved, *both_ways(moved, low, high)):
+                bent = with_bend(model, k, j, wall)
+                if bent is not None:
                     yield Change(bent, range(j, j + 1))

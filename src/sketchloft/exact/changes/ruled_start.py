@@ -52,10 +52,8 @@ def ruled_start(
     low, high = ends
     share = (points[:, 2] - low) / (high - low)
     inside = (share > 0) & (share < 1)
-    (slab, width), (last_slab, last_width) = (
-        _slab(points[inside, :2], at[inside]) for at in (share, 1 - share)
-    )
-    slabs = slab, last_slab
+    found = [_slab(points[inside, :2], at[inside]) for at in (share, 1 - share)]
+    slabs, (width, last_width) = zip(*found, strict=True)
     if min(map(len, slabs)) < FEWEST:
         return None
     outlines: list[Outline] = []

@@ -75,11 +75,12 @@ def kink_ties(below: Run, above: Run, j: int) -> list[Tie]:
 def squared_ties(run: Run, j: int) -> list[Tie]:
     """What both ends of the ruled wall of run j have in common if they are rectangles turned alike."""
     wall = sole_wall(run)
-    ends = (wall.bottom, wall.top) if isinstance(wall, Ruled) else ()
-    if not all(isinstance(end, Rectangle) for end in ends) or not ends:
+    if not isinstance(wall, Ruled):
         return []
-    below, above = (end.vector for end in ends)
-    if below[4] != above[4]:
+    if not (isinstance(wall.bottom, Rectangle) and isinstance(wall.top, Rectangle)):
+        return []
+    below, above = wall.bottom.vector, wall.top.vector
+    if wall.bottom.angle != wall.top.angle:
         return []
     shared = [0, 1, 4] if np.array_equal(below[:2], above[:2]) else [4]
     return [((j, 0, k), (j, 0, len(below) + k)) for k in shared]

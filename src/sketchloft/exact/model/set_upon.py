@@ -2,23 +2,45 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 
-from sketchloft.exact.model.kinks import end_outline
+from sketchloft.exact.model.exact_model import ExactModel
+from sketchloft.exact.model.kinks import end_outline, kink_ties, sole_wall
+from sketchloft.exact.model.surgery import with_run
 from sketchloft.outline.chain_outline import ChainOutline
 from sketchloft.outline.outline import Outline
 from sketchloft.outline.placed_polygons import Rectangle
+from sketchloft.stack import Run
 from sketchloft.wall.ruled import Ruled
 from sketchloft.wall.swept import Swept
 
-__all__ = ["moved_off", "set_upon"]
+__all__ = ["moved_off", "set_upon_each_other", "with_bend"]
 
 QUARTER = np.pi / 2
 
 
-def set_upon(wall: Swept | Ruled, other: Swept | Ruled, height: float, side: int) -> Swept | Ruled | None:
+def set_upon_each_other(model: ExactModel, k: int) -> Iterator[tuple[int, Swept | Ruled]]:
+    """Runs beside a step, each with its wall upon the outline of the other one, where it can be."""
+    below, above = (sole_wall(run) for run in model.stack.runs[k - 1 : k + 1])
+    if below is None or above is None or model.joins[k] != "step":
+        return
+    height = float(model.stack.breaks[k])
+    for j, wall, other, side in ((k, above, below, -1), (k - 1, below, above, 1)):
+        moved = _set_upon(wall, other, height, side)
+        if moved is not None:
+            yield j, moved
+
+
+def with_bend(model: ExactModel, k: int, j: int, wall: Swept | Ruled) -> ExactModel | None:
+    """The model with a wall in run j, if it and its neighbour meet at break k with one outline then."""
+    bent = with_run(model, j, Run((wall,)))
+    return bent if kink_ties(bent.stack.runs[k - 1], bent.stack.runs[k], k) else None
+
+
+def _set_upon(wall: Swept | Ruled, other: Swept | Ruled, height: float, side: int) -> Swept | Ruled | None:
     """The wall upon the outline of one beyond its lower (-1) or upper (1) end, if it can be."""
     if isinstance(wall, Ruled):
         return _between_rectangles(wall, end_outline(other, -side), side)

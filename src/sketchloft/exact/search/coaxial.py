@@ -61,8 +61,9 @@ def coaxial(
     start = natural_joins(tied(straight, pairs + rings)) if rings else tied(straight, pairs)
     change, _, rotation = climb(near, start, 12, tilt=tilt)
     change = natural_joins(change)
-    if {*_tangents(change)} - {*pairs}:  # on one axis walls may run into each other that crossed before
-        change, _, more = climb(near @ rotation, tied(change, _tangents(change)), 12, tilt=tilt)
+    tangents = _tangents(change)
+    if {*tangents} - {*pairs}:  # on one axis walls may run into each other that crossed before
+        change, _, more = climb(near @ rotation, tied(change, tangents), 12, tilt=tilt)
         change, rotation = natural_joins(change), rotation @ more
     turned, count = turned @ rotation, len(points)
     pays = worth(turned, change, together, count) > worth(points, model, together, count)

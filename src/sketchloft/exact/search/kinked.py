@@ -8,11 +8,10 @@ import numpy as np
 
 from sketchloft.cloud import Floats
 from sketchloft.exact.model.exact_model import ExactModel
-from sketchloft.exact.model.kinks import kink_ties, sole_wall
-from sketchloft.exact.model.set_upon import set_upon
-from sketchloft.exact.model.surgery import with_run
-from sketchloft.exact.search.as_many_as_pay import fitted_if_it_pays
-from sketchloft.stack import Run, section_boundary
+from sketchloft.exact.model.kinks import sole_wall
+from sketchloft.exact.model.set_upon import set_upon_each_other, with_bend
+from sketchloft.exact.search.if_it_pays import fitted_if_it_pays
+from sketchloft.stack import section_boundary
 from sketchloft.wall.ruled import Ruled
 from sketchloft.wall.swept import Swept
 
@@ -47,15 +46,14 @@ def kinked(points: Floats, model: ExactModel, together: float) -> ExactModel:
 def _bent(model: ExactModel, k: int) -> Iterator[ExactModel]:
     """The model with one outline for the runs below and above a break, if their sections are near."""
     below, above = (sole_wall(run) for run in model.stack.runs[k - 1 : k + 1])
-    if below is None or above is None or model.joins[k] != "step":
+    if below is None or above is None:
         return
     height = float(model.stack.breaks[k])
     if max(_apart(below, above, height), _apart(above, below, height)) > NEAR + NOISES * model.sigma:
         return
-    for run, wall, other, side in ((k, above, below, -1), (k - 1, below, above, 1)):
-        moved = set_upon(wall, other, height, side)
-        bent = None if moved is None else with_run(model, run, Run((moved,)))
-        if bent is not None and kink_ties(bent.stack.runs[k - 1], bent.stack.runs[k], k):
+    for j, wall in set_upon_each_other(model, k):
+        bent = with_bend(model, k, j, wall)
+        if bent is not None:
             yield bent
 
 

@@ -11,7 +11,7 @@ from sketchloft.cloud import Floats
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.exact.model.kinks import sole_wall
 from sketchloft.exact.model.surgery import with_run
-from sketchloft.exact.search.as_many_as_pay import fitted_if_it_pays
+from sketchloft.exact.search.if_it_pays import fitted_if_it_pays
 from sketchloft.outline.chain_outline import ChainOutline
 from sketchloft.outline.placed_polygons import Rectangle
 from sketchloft.stack import Run

@@ -15,9 +15,12 @@ from sketchloft.exact.start.direction import Candidate
 from sketchloft.exact.start.seen import Seen
 from sketchloft.exact.start.segments import SegmentsParams
 from sketchloft.exact.start.start import Start, plain, start_along
+from sketchloft.outline.spline_loop import SplineLoop
+from sketchloft.stack import Wall
 from sketchloft.wall.lofted import Lofted
 from sketchloft.wall.profile import SplineProfile
 from sketchloft.wall.revolved import Revolved
+from sketchloft.wall.swept import Swept
 from sketchloft.workers import Workers
 
 __all__ = ["searched"]
@@ -134,7 +137,13 @@ def _blurred(model: ExactModel) -> float:
 
 def _stiff(model: ExactModel) -> bool:
     """Whether no wall can bend to where strokes are: seen along a wrong direction it is far from them."""
-    return _simple(model) or (len(model.stack.runs) == 1 and not _has_loft(model))
+    alone = len(model.stack.runs) == 1 and not _has_loft(model)
+    return _simple(model) or (alone and not any(map(_bulges, model.stack.walls)))
+
+
+def _bulges(wall: Wall) -> bool:
+    """Whether a free outline bulges: such a wall is free along the axis and about it."""
+    return isinstance(wall, Swept) and isinstance(wall.outline, SplineLoop) and "bow" in wall.free
 
 
 def _simple(model: ExactModel) -> bool:

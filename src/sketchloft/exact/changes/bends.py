@@ -20,6 +20,8 @@ __all__ = ["bends"]
 
 SHARES = (0.12, 0.3)
 """Heights of an end, in that of its run, that are tried."""
+THINNEST = 0.01
+"""Height of an end, in sizes of the cloud, below which it is not looked for."""
 TAPER = 0.1
 """Share by which an end is smaller than without, at first: which way it tapers is for the points to say."""
 
@@ -33,6 +35,8 @@ def bends(model: ExactModel) -> Iterator[Change]:
             continue
         for side, share in ((side, share) for side in (1, -1) for share in SHARES):
             long = share * (high - low)
+            if long < THINNEST:
+                continue
             height = high - long if side > 0 else low + long
             size = float(wall.scale(np.array([height]))[0])
             tapering = replace(wall, taper=wall.taper - side * TAPER / long * size, free=("taper",))

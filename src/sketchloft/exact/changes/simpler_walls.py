@@ -95,8 +95,10 @@ def _moving_otherwise(wall: Swept) -> Iterator[Swept]:
 
 
 def both_ways(wall: Wall, low: float, high: float) -> Iterator[Ruled]:
-    """For a tapered rectangle: one whose sides may go by slopes of their own."""
-    if not isinstance(wall, Swept) or not isinstance(wall.outline, Rectangle) or wall.moves != ("taper",):
+    """For a tapered rectangle: one that stands straight, whose sides may go by slopes of their own."""
+    if not isinstance(wall, Swept) or not isinstance(wall.outline, Rectangle):
+        return
+    if wall.moves not in (("taper",), ("drift", "taper")):
         return
     outline = wall.outline
     below, above = (

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from sketchloft.cloud import Floats
+from sketchloft.exact.changes.cap_misfit import cap_misfit
 from sketchloft.exact.changes.evidence import improved, merged
 from sketchloft.exact.changes.misfit import misfit
 from sketchloft.exact.changes.worth import worth
@@ -79,5 +80,6 @@ def finished(
     model = flat_sides(sample @ turn, model, together)  # what that costs does not count against it
     blurred = replace(model, sigma=max(model.sigma, AT_LEAST))
     left = misfit(sample @ turn, blurred, range(len(model.stack.runs)), together)
+    left += cap_misfit(sample @ turn, blurred, together)
     model, turn = counted(thicker(model, every), len(start.points) - len(points)), start.settling @ turn
     return Found(start, model, start.points @ turn, turn, value, left)

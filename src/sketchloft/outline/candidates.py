@@ -23,7 +23,7 @@ CONTOUR_NOISE = 0.3
 ROUNDING = 1.5
 """Blurs beside a corner within which the contour is rounded off."""
 PRICES = (2.5, 5.0, 10.0)
-MOST_CORNERS = 24
+MOST_CORNERS = 48
 AROUND = 240
 REGULAR = (3, 5, 6, 8)
 """Sides of regular polygons that are looked for."""

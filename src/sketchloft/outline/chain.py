@@ -23,6 +23,8 @@ STRAIGHT = 1e-9
 """Edges of a smaller bulge are lines to a CAD kernel."""
 VANISHED = 1e-9
 """Edges shorter than this, relative to the perimeter, are left out."""
+TURN = np.pi / 3
+"""Sweep of an arc for which there is one more of them than on a line, at least."""
 PANEL = 8
 """Gauss points of a panel; edges with more get several panels."""
 
@@ -72,10 +74,14 @@ def _segment_area(bulges: Floats) -> Floats:
 
 
 def chain_boundary(vertices: Floats, bulges: Floats, count: int) -> Boundary:
-    """About `count` Gauss points along a chain, in proportion to the edges' lengths, 2 or more on each."""
+    """About `count` Gauss points along a chain, in proportion to the edges' lengths.
+
+    There are 2 or more on each edge, and on an arc as many more as it turns, as what is integrated does.
+    """
     along = chords(vertices)
     lengths = _lengths(along, bulges)
-    shares = np.maximum(2, np.rint(count * lengths / lengths.sum()).astype(np.intp))
+    least = 2 + np.rint(4 * np.abs(np.arctan(bulges)) / TURN).astype(np.intp)
+    shares = np.maximum(least, np.rint(count * lengths / lengths.sum()).astype(np.intp))
     shares[lengths <= VANISHED * lengths.sum()] = 0
     edge, fraction, weights = _rules(tuple(shares.tolist()))
     bulge, chord = bulges[edge], along[edge]

@@ -13,6 +13,9 @@ from sketchloft.shapes.spline import resampled
 __all__ = ["line_arc_pieces"]
 
 SAMPLES = 120
+FINE = 360
+"""Samples of a contour that has many pieces."""
+MANY = 16
 LINE_PRICE = 6.0
 ARC_PRICE = 9.0
 WIDEST = 6.0
@@ -45,9 +48,18 @@ def line_arc_pieces(
     Dynamic programming over the samples of the contour, started where it turns most. What lies within
     `rounding` of a piece's ends does not count against it.
     """
-    points = resampled(ring, SAMPLES)
+    found = _cut(resampled(ring, SAMPLES), noise, rounding, prices)
+    if max(len(vertices) for vertices, _ in found) <= MANY:
+        return found
+    return _cut(resampled(ring, FINE), noise, rounding, prices)
+
+
+def _cut(
+    points: Floats, noise: float, rounding: float, prices: Sequence[float]
+) -> list[tuple[Floats, Floats]]:
+    """Cut evenly spread samples (m, 2) of the contour."""
     step = float(np.linalg.norm(np.roll(points, -1, axis=0) - points, axis=1).mean())
-    trim = int(np.clip(np.rint(rounding / step), 0, SAMPLES // 16))
+    trim = int(np.clip(np.rint(rounding / step), 0, len(points) // 16))
     points = np.roll(points, -_sharpest(points, max(trim, 2)), axis=0)
     closed = np.concatenate([points, points[:1]])
     line, arc, bulge = _costs(closed, noise, trim)

@@ -327,3 +327,14 @@ def test_most_of_a_circle_is_one_arc(width: float) -> None:
     assert len(vertices) == 4
     assert np.sort(bulges)[:3].tolist() == [0, 0, 0]
     assert 4 * np.arctan(bulges.max()) == pytest.approx(sweep, abs=0.15)
+
+
+@pytest.mark.parametrize("bulge", [-1.0, 0.4, 1.0, 2.2])
+def test_few_points_integrate_over_arcs_that_turn_far(bulge: float) -> None:
+    """As every edge of an outline of many has, when a wall has points at some heights to spread."""
+    angles = np.arange(10) / 10 * 2 * np.pi
+    vertices = np.column_stack([np.cos(angles), np.sin(angles)])
+    bulges = np.where(np.arange(10) % 2 == 0, bulge, 0.0)
+    boundary = chain_boundary(vertices, bulges, 20)
+    flux = np.einsum("ij,ij,i->", boundary.points, boundary.normals, boundary.lengths) / 2
+    assert flux == pytest.approx(chain_area(vertices, bulges), rel=1e-4)

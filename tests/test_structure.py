@@ -12,6 +12,7 @@ from sketchloft import Params, PointCloud, reconstruct
 from sketchloft.cloud import Floats
 from sketchloft.direction import Axis, DirectionParams
 from sketchloft.exact.body import ExactBody
+from sketchloft.exact.changes.cap_misfit import cap_misfit
 from sketchloft.exact.changes.change import Change
 from sketchloft.exact.changes.evidence import improved
 from sketchloft.exact.changes.misfit import misfit
@@ -111,6 +112,25 @@ def test_the_right_walls_leave_nothing_and_wrong_ones_do(sigma: float) -> None:
     assert abs(found[0]) < 25
     assert found[0] < found[1] < found[2] < found[3]
     assert found[3] > 50
+
+
+def test_walls_that_come_together_have_nothing_against_each_other() -> None:
+    """At the top and the bottom of a ring points lie beside both of its halves."""
+    halves = (Revolved(AXIS, ArcProfile(0.0, 0.35, 0.1, side)) for side in (1, -1))
+    ring = Stack(np.array([-0.1, 0.1]), (Run(tuple(halves), 1),))
+    assert misfit(drawn(ring), model_at(ring), range(1), 1.0) < 10
+
+
+def test_faces_across_the_axis_have_a_misfit_where_a_roof_is() -> None:
+    box, tower = prism(0.8, 0.5), prism(0.3, 0.2)
+    steps = stack_of([-0.3, 0.0, 0.3], box, tower)
+    assert cap_misfit(drawn(steps), model_at(steps), 1.0) < 10
+    points = drawn(stack_of([-0.3, 0.3], box))
+    roof = points[points[:, 2] < 0.3 - 0.1 * np.abs(points[:, 0]) / 0.4]
+    flat = [cap_misfit(roof, model_at(stack_of([-0.3, 0.3 - lower], box)), 1.0) for lower in (0.03, 0.05)]
+    assert min(flat) > 20
+    overhang = stack_of([-0.3, 0.0, 0.3], box, prism(0.6, 0.4))
+    assert cap_misfit(drawn(steps), model_at(overhang), 1.0) > 50
 
 
 # Flush sides

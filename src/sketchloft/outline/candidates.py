@@ -22,7 +22,10 @@ CONTOUR_NOISE = 0.3
 """Standard deviation of the half-density contour in blurs of the density."""
 ROUNDING = 1.5
 """Blurs beside a corner within which the contour is rounded off."""
-PRICES = (2.5, 5.0, 10.0)
+PRICES = (10.0, 5.0, 2.5)
+COARSE = (20.0, 40.0)
+"""Of each piece, in the usual one: those for what chance leaves of an even cloud's contour, and further ones
+for that of strokes, which waves more slowly and farther."""
 MOST_CORNERS = 48
 AROUND = 240
 REGULAR = (3, 5, 6, 8)
@@ -69,8 +72,8 @@ def spline_of(ring: Floats, poles: int) -> SplineLoop:
     return spline_loop(fit_spline(ring, poles).poles)
 
 
-def chains(ring: Floats, blur: float) -> list[Outline]:
-    """Polygons and chains of lines and arcs, the simplest first.
+def chains(ring: Floats, blur: float, *, strokes: bool = False) -> list[Outline]:
+    """Polygons and chains of lines and arcs.
 
     Parameters
     ----------
@@ -78,10 +81,13 @@ def chains(ring: Floats, blur: float) -> list[Outline]:
         Contour, counter-clockwise.
     blur : float
         Standard deviation of the blur it was found with.
+    strokes : bool
+        Whether its points go together, so that there are fewer pieces than there seem to be.
     """
+    prices = (*PRICES, *COARSE) if strokes else PRICES
     found: list[Outline] = []
     seen: set[tuple[bool, ...]] = set()
-    for vertices, bulges in line_arc_pieces(ring, CONTOUR_NOISE * blur, ROUNDING * blur, PRICES[::-1]):
+    for vertices, bulges in line_arc_pieces(ring, CONTOUR_NOISE * blur, ROUNDING * blur, prices):
         curved = bulges != 0
         key = tuple(curved.tolist())
         if len(vertices) < 2 or len(vertices) > MOST_CORNERS or key in seen:

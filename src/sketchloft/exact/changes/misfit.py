@@ -8,6 +8,7 @@ from itertools import pairwise
 import numpy as np
 
 from sketchloft.cloud import Floats, Ints
+from sketchloft.exact.fit.motion import Bools
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.stack import THIN, Wall, section_boundary
 
@@ -50,6 +51,7 @@ def misfit(points: Floats, model: ExactModel, runs: range, together: float) -> f
     each patch of the band, over the root of its expectation, varies by 1 by chance, and so does each wave
     that the patches are a sum of. What the slow waves vary by beyond chance tells of walls that are wrong;
     the band that shows most counts. Their mean does not count: more noise than there is moves walls inwards.
+    Nor do places where two walls of a run come together, as the halves of a ring do.
     """
     breaks = model.stack.breaks
     total = np.zeros(len(BANDS))
@@ -57,21 +59,32 @@ def misfit(points: Floats, model: ExactModel, runs: range, together: float) -> f
         low, high = float(breaks[j]), float(breaks[j + 1])
         inner = points[(points[:, 2] > low) & (points[:, 2] < high)]
         for wall in model.stack.runs[j].walls:
+            size = float(np.sqrt(np.abs(wall.area(np.linspace(low, high, 5))).min()))
+            widths = np.minimum(np.array(BANDS) * model.sigma, WIDEST * size)
+            others = [other for other in model.stack.runs[j].walls if other is not wall]
             patches = _patches(wall, low, high)
             per_width = np.zeros(AROUND * ALONG)
             for bottom, top in pairwise(np.linspace(low, high, ALONG + 1).tolist()):
                 nodes = wall.boundary(bottom, top, NODES)
-                points_there = model.density.at(nodes.points) * nodes.areas
+                alone = _apart(nodes.points, others, float(widths.max()))
+                points_there = model.density.at(nodes.points) * nodes.areas * alone
                 per_width += np.bincount(patches.of(nodes.points), points_there, AROUND * ALONG)
-            size = float(np.sqrt(np.abs(wall.area(np.linspace(low, high, 5))).min()))
-            widths = np.minimum(np.array(BANDS) * model.sigma, WIDEST * size)
-            away = np.abs(wall.foot(inner).distance)
-            patch = patches.of(inner)
+            alone = _apart(inner, others, float(widths.max()))
+            away = np.abs(wall.foot(inner[alone]).distance)
+            patch = patches.of(inner[alone])
             for k, width in enumerate(widths):
                 found = np.bincount(patch[away < width], minlength=AROUND * ALONG)
                 expected = np.maximum(per_width * width, FEWEST)
                 total[k] += _beyond_chance((found - expected) / np.sqrt(expected * together))
     return max(float(total.max()), 0.0)
+
+
+def _apart(places: Floats, others: list[Wall], width: float) -> Bools:
+    """Whether a band of a wall around places (n, 3) has nothing to do with that of another wall."""
+    found = np.ones(len(places), dtype=bool)
+    for other in others:
+        found &= np.abs(other.foot(places).distance) > 2 * width
+    return found
 
 
 def _beyond_chance(patches: Floats) -> float:

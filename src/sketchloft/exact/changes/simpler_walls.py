@@ -12,6 +12,7 @@ from sketchloft.cloud import Floats
 from sketchloft.exact.changes.turning import turning
 from sketchloft.outline.candidates import circle_of, ellipse_of, polygons, rectangle_of
 from sketchloft.outline.circle import Circle
+from sketchloft.outline.corner_less import with_a_corner_less
 from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.outline import Outline
 from sketchloft.outline.placed_polygons import Rectangle, RegularPolygon, RoundedRectangle
@@ -183,10 +184,7 @@ def _with_simpler_corners(outline: Outline) -> Iterator[Outline]:
         for corner in _without_chamfers(outline.vertices):
             yield Polygon(corner)
     if isinstance(outline, LineArc) and len(outline.vertices) > 2:
-        for k in _flattest(outline.vertices):
-            curved, bulges = np.delete(outline.curved, k), np.delete(outline.bulges, k)
-            if curved.any():
-                yield LineArc(np.delete(outline.vertices, k, axis=0), bulges, curved)
+        yield from with_a_corner_less(outline)
         yield Polygon(outline.vertices)
 
 

@@ -9,10 +9,11 @@ import numpy as np
 from sketchloft.cloud import Floats
 from sketchloft.exact.section.rarity import may_be_free
 from sketchloft.outline.candidates import chains, polygons, rectangle_like, spline_of
+from sketchloft.outline.corner_less import with_a_corner_less
 from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.fitted_loop import fitted_loop
 from sketchloft.outline.outline import Outline
-from sketchloft.outline.polygons import Polygon, corner_areas
+from sketchloft.outline.polygons import LineArc, Polygon, corner_areas
 from sketchloft.outline.rectilinear import rectilinear_of, with_a_step_less
 from sketchloft.outline.spline_loop import SplineLoop
 from sketchloft.outline.star import star_in
@@ -39,23 +40,31 @@ Tried = list[tuple[float, Outline]]
 """Evidence of outlines, and the outlines as fitted."""
 
 
-def attempt_corners(attempt: Attempt, tried: Tried, ring: Floats, blur: float) -> None:
+def attempt_corners(attempt: Attempt, tried: Tried, ring: Floats, blur: float, *, strokes: bool) -> None:
     """Try outlines with corners, and the best polygon with fewer and fewer of them."""
-    cut = chains(ring, blur)
+    cut = chains(ring, blur, strokes=strokes)
     polygon = next((outline for outline in cut if isinstance(outline, Polygon)), None)
     # Where points are few, they tell the angle better than the contour.
     by_points = [rectangle_like(found) for _, found in tried if isinstance(found, Ellipse)]
     star = star_in(ring)
     stars = [] if star is None else [star]
     attempt(*cut, *polygons(ring, polygon, blur), *by_points, *stars)
-    plain = [found for found in tried if isinstance(found[1], Polygon)]
-    value, outline = max(plain or tried, key=lambda found: found[0])
-    while isinstance(outline, Polygon) and len(outline.vertices) > 3:
-        (simpler,) = attempt(_simpler(outline))
-        if simpler < value:
-            break
-        value, outline = tried[-1]
+    for kind in (Polygon, LineArc):
+        _attempt_fewer_corners(attempt, tried, kind)
     _attempt_right_corners(attempt, tried)
+
+
+def _attempt_fewer_corners(attempt: Attempt, tried: Tried, kind: type[Polygon | LineArc]) -> None:
+    """Try the best outline of a kind with fewer and fewer corners, as long as it gets better."""
+    found = [one for one in tried if isinstance(one[1], kind)]
+    if not found:
+        return
+    value, outline = max(found, key=lambda one: one[0])
+    while isinstance(outline, (Polygon, LineArc)) and (simpler := _simpler(outline)):
+        gained = max(attempt(*simpler))
+        if gained < value:
+            return
+        value, outline = max(tried[-len(simpler) :], key=lambda one: one[0])
 
 
 def _attempt_right_corners(attempt: Attempt, tried: Tried) -> None:
@@ -93,7 +102,11 @@ def likeliest(tried: Tried) -> Outline:
     return max(tried, key=lambda found: found[0])[1]
 
 
-def _simpler(polygon: Polygon) -> Polygon:
-    """Drop the corner whose triangle with its neighbours is smallest."""
-    smallest = int(np.argmin(corner_areas(polygon.vertices)))
-    return Polygon(np.delete(polygon.vertices, smallest, axis=0))
+def _simpler(outline: Polygon | LineArc) -> list[Outline]:
+    """Drop the corner whose triangle with its neighbours is smallest; beside arcs, one that may be none."""
+    if isinstance(outline, LineArc):
+        return [*with_a_corner_less(outline)]
+    if len(outline.vertices) < 4:
+        return []
+    smallest = int(np.argmin(corner_areas(outline.vertices)))
+    return [Polygon(np.delete(outline.vertices, smallest, axis=0))]

@@ -93,7 +93,7 @@ def _best(loop: Loop, ring: Floats, *, rough: bool, workers: Workers) -> Outline
     if rough:
         attempt(rectangle_of(ring))
         return likeliest(tried)
-    attempt_corners(attempt, tried, ring, loop.blur)
+    attempt_corners(attempt, tried, ring, loop.blur, strokes=loop.together > 1)
     if nearly_free(tried):
         attempt_splines(attempt, tried, ring)
     return likeliest(tried)

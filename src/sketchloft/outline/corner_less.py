@@ -1,0 +1,33 @@
+"""A corner less: outlines of lines and arcs without one of their corners, which may be none."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from sketchloft.outline.polygons import LineArc, corner_areas
+
+__all__ = ["with_a_corner_less"]
+
+FLATTEST = 3
+"""Corners that are left out, one at a time: those whose triangles with their neighbours are smallest."""
+WIDEST = 1.4
+"""Quarter of the sweep of an arc at most that two are joined to, in radians."""
+
+
+def with_a_corner_less(outline: LineArc) -> Iterator[LineArc]:
+    """Outlines with two arcs that turn the same way joined to one, or without one of the flattest corners."""
+    if len(outline.vertices) < 3:
+        return
+    quarters = np.arctan(outline.bulges)
+    before = np.roll(quarters, 1)
+    within = np.flatnonzero(quarters * before > 0)
+    both = np.tan(np.clip(quarters + before, -WIDEST, WIDEST))
+    flattest = np.argsort(corner_areas(outline.vertices))[:FLATTEST]
+    for k in dict.fromkeys([*within.tolist(), *flattest.tolist()]):
+        bulges, curved = outline.bulges.copy(), np.delete(outline.curved, k)
+        if k in within:
+            bulges[k - 1] = both[k]
+        if curved.any():
+            yield LineArc(np.delete(outline.vertices, k, axis=0), np.delete(bulges, k), curved)

@@ -130,7 +130,7 @@ def test_faces_across_the_axis_have_a_misfit_where_a_roof_is() -> None:
     flat = [cap_misfit(roof, model_at(stack_of([-0.3, 0.3 - lower], box)), 1.0) for lower in (0.03, 0.05)]
     assert min(flat) > 20
     overhang = stack_of([-0.3, 0.0, 0.3], box, prism(0.6, 0.4))
-    assert cap_misfit(drawn(steps), model_at(overhang), 1.0) > 50
+    assert cap_misfit(drawn(steps), model_at(overhang), 1.0) > 20
 
 
 # Flush sides

@@ -55,8 +55,11 @@ def attempt_corners(attempt: Attempt, tried: Tried, ring: Floats, blur: float, *
 
 
 def _attempt_fewer_corners(attempt: Attempt, tried: Tried, kind: type[Polygon | LineArc]) -> None:
-    """Try the best outline of a kind with fewer and fewer corners, as long as it gets better."""
-    found = [one for one in tried if isinstance(one[1], kind)]
+    """Try the best outline of a kind with fewer and fewer corners, as long as it gets better.
+
+    Arcs that have lost their points do not find them again with a corner less, as polygons do.
+    """
+    found = [one for one in tried if isinstance(one[1], kind) and (kind is Polygon or np.isfinite(one[0]))]
     if not found:
         return
     value, outline = max(found, key=lambda one: one[0])

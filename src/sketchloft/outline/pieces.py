@@ -14,7 +14,7 @@ __all__ = ["line_arc_pieces"]
 
 SAMPLES = 120
 FINE = 360
-"""Samples of a contour that has many pieces."""
+"""Samples of a contour that has many pieces at any price."""
 MANY = 16
 LINE_PRICE = 6.0
 ARC_PRICE = 9.0
@@ -49,7 +49,7 @@ def line_arc_pieces(
     `rounding` of a piece's ends does not count against it.
     """
     found = _cut(resampled(ring, SAMPLES), noise, rounding, prices)
-    if max(len(vertices) for vertices, _ in found) <= MANY:
+    if min(len(vertices) for vertices, _ in found) <= MANY:
         return found
     return _cut(resampled(ring, FINE), noise, rounding, prices)
 

@@ -23,8 +23,9 @@ STRAIGHT = 1e-9
 """Edges of a smaller bulge are lines to a CAD kernel."""
 VANISHED = 1e-9
 """Edges shorter than this, relative to the perimeter, are left out."""
-TURN = np.pi / 3
-"""Sweep of an arc for which there is one more of them than on a line, at least."""
+TURN = np.pi / 4
+"""Sweep of an arc for which there is one more of them than on a line, at least. The number changes, by which
+what is integrated makes a step, far from right angles, which are common."""
 PANEL = 8
 """Gauss points of a panel; edges with more get several panels."""
 

@@ -8,10 +8,10 @@ import pytest
 from sketchloft.cloud import Floats
 from sketchloft.exact.changes.simpler_walls import walls_like
 from sketchloft.exact.changes.turning import turning
-from sketchloft.outline.corner_less import with_a_corner_less
 from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.placed_polygons import Rectangle
 from sketchloft.outline.polygons import LineArc, Polygon
+from sketchloft.outline.simpler_chains import simpler_chains
 from sketchloft.outline.stadium import Stadium
 from sketchloft.outline.with_arc import with_an_arc
 from sketchloft.wall.ruled import Ruled
@@ -91,12 +91,22 @@ def test_two_arcs_that_go_on_are_joined_to_one() -> None:
     vertices = np.array([[1.0, -1.0], [1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [-1.0, -1.0]])
     bulges = np.array([0.0, np.tan(np.pi / 8), np.tan(np.pi / 8), 0.0, 0.0])
     arch = LineArc(vertices, bulges, bulges != 0)
-    fewer = [*with_a_corner_less(arch)]
+    fewer = [*simpler_chains(arch)]
     assert all(len(each.vertices) == 4 for each in fewer)
     assert fewer[0].bulges == pytest.approx([0.0, 1.0, 0.0, 0.0])
     assert fewer[0].area == pytest.approx(arch.area)
 
 
+def test_an_arc_that_hardly_bulges_may_be_a_line() -> None:
+    vertices = np.array([[1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0]])
+    bulges = np.array([0.02, 1.0, 0.0, 0.0])
+    first = next(simpler_chains(LineArc(vertices, bulges, bulges != 0)))
+    assert first.bulges == pytest.approx([0.0, 1.0, 0.0, 0.0])
+    assert first.curved.tolist() == [False, True, False, False]
+    sole = np.array([0.02, 0.0, 0.0, 0.0])
+    assert all(each.curved.any() for each in simpler_chains(LineArc(vertices, sole, sole != 0)))
+
+
 def test_the_smallest_chain_has_no_corner_to_spare() -> None:
     disc = LineArc(np.array([[1.0, 0.0], [-1.0, 0.0]]), np.ones(2), np.ones(2, dtype=bool))
-    assert not [*with_a_corner_less(disc)]
+    assert not [*simpler_chains(disc)]

@@ -12,13 +12,13 @@ from sketchloft.cloud import Floats
 from sketchloft.exact.changes.turning import turning
 from sketchloft.outline.candidates import circle_of, ellipse_of, polygons, rectangle_of
 from sketchloft.outline.circle import Circle
-from sketchloft.outline.corner_less import with_a_corner_less
 from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.outline import Outline
 from sketchloft.outline.placed_polygons import Rectangle, RegularPolygon, RoundedRectangle
 from sketchloft.outline.polygons import LineArc, Polygon, corner_areas
 from sketchloft.outline.rectilinear import RectilinearPolygon, rectilinear_of, with_a_step_less
 from sketchloft.outline.rounded_polygon import RoundedPolygon
+from sketchloft.outline.simpler_chains import simpler_chains
 from sketchloft.outline.spline_loop import SplineLoop
 from sketchloft.outline.stadium import Stadium, stadium_like
 from sketchloft.outline.star import Star, star_of
@@ -184,7 +184,7 @@ def _with_simpler_corners(outline: Outline) -> Iterator[Outline]:
         for corner in _without_chamfers(outline.vertices):
             yield Polygon(corner)
     if isinstance(outline, LineArc) and len(outline.vertices) > 2:
-        yield from with_a_corner_less(outline)
+        yield from simpler_chains(outline)
         yield Polygon(outline.vertices)
 
 

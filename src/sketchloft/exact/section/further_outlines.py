@@ -9,12 +9,12 @@ import numpy as np
 from sketchloft.cloud import Floats
 from sketchloft.exact.section.rarity import may_be_free
 from sketchloft.outline.candidates import chains, polygons, rectangle_like, spline_of
-from sketchloft.outline.corner_less import with_a_corner_less
 from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.fitted_loop import fitted_loop
 from sketchloft.outline.outline import Outline
 from sketchloft.outline.polygons import LineArc, Polygon, corner_areas
 from sketchloft.outline.rectilinear import rectilinear_of, with_a_step_less
+from sketchloft.outline.simpler_chains import simpler_chains
 from sketchloft.outline.spline_loop import SplineLoop
 from sketchloft.outline.star import star_in
 
@@ -108,7 +108,7 @@ def likeliest(tried: Tried) -> Outline:
 def _simpler(outline: Polygon | LineArc) -> list[Outline]:
     """Drop the corner whose triangle with its neighbours is smallest; beside arcs, one that may be none."""
     if isinstance(outline, LineArc):
-        return [*with_a_corner_less(outline)]
+        return [*simpler_chains(outline)]
     if len(outline.vertices) < 4:
         return []
     smallest = int(np.argmin(corner_areas(outline.vertices)))

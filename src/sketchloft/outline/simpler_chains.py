@@ -1,4 +1,4 @@
-"""A corner less: outlines of lines and arcs without one of their corners, which may be none."""
+"""Simpler chains: outlines of lines and arcs without one of their corners, or with a line for an arc."""
 
 from __future__ import annotations
 
@@ -8,16 +8,23 @@ import numpy as np
 
 from sketchloft.outline.polygons import LineArc, corner_areas
 
-__all__ = ["with_a_corner_less"]
+__all__ = ["simpler_chains"]
 
 FLATTEST = 3
 """Corners that are left out, one at a time: those whose triangles with their neighbours are smallest."""
+SLIGHT = 0.15
+"""Bulge of an arc below which it may be a line."""
 WIDEST = 1.4
 """Quarter of the sweep of an arc at most that two are joined to, in radians."""
 
 
-def with_a_corner_less(outline: LineArc) -> Iterator[LineArc]:
-    """Outlines with two arcs that turn the same way joined to one, or without one of the flattest corners."""
+def simpler_chains(outline: LineArc) -> Iterator[LineArc]:
+    """Outlines with two arcs that turn the same way joined to one, without a flat corner, or a flat arc."""
+    slight = outline.curved & (np.abs(outline.bulges) < SLIGHT)
+    for k in np.flatnonzero(slight).tolist():
+        line = np.arange(len(slight)) == k
+        if (outline.curved & ~line).any():
+            yield LineArc(outline.vertices, np.where(line, 0.0, outline.bulges), outline.curved & ~line)
     if len(outline.vertices) < 3:
         return
     quarters = np.arctan(outline.bulges)

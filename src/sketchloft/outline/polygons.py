@@ -12,7 +12,7 @@ from sketchloft.cloud import Floats
 from sketchloft.outline.chain import chords
 from sketchloft.outline.chain_outline import ChainOutline
 
-__all__ = ["LineArc", "Polygon", "chain_outline", "corner_areas", "odd_corners", "thin_cuts"]
+__all__ = ["LineArc", "Polygon", "chain_outline", "corner_areas", "flattest", "odd_corners", "thin_cuts"]
 
 PLAIN = np.radians([0.0, 90.0, -90.0])
 """Turns at the end of an arc that a designer draws."""
@@ -58,6 +58,11 @@ def corner_areas(vertices: Floats) -> Floats:
     """Twice the area (m,) of the triangle that each vertex (m, 2) makes with its two neighbours."""
     before, after = np.roll(vertices, 1, axis=0) - vertices, np.roll(vertices, -1, axis=0) - vertices
     return np.abs(before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0])
+
+
+def flattest(vertices: Floats) -> list[int]:
+    """The corners whose triangles with their neighbours are smallest, three at most."""
+    return [int(k) for k in np.argsort(corner_areas(vertices))[:3]]
 
 
 @dataclass(frozen=True)

@@ -6,12 +6,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from sketchloft.outline.polygons import LineArc, corner_areas
+from sketchloft.outline.polygons import LineArc, flattest
 
 __all__ = ["simpler_chains"]
 
-FLATTEST = 3
-"""Corners that are left out, one at a time: those whose triangles with their neighbours are smallest."""
 SLIGHT = 0.15
 """Bulge of an arc below which it may be a line."""
 WIDEST = 1.4
@@ -31,8 +29,7 @@ def simpler_chains(outline: LineArc) -> Iterator[LineArc]:
     before = np.roll(quarters, 1)
     within = np.flatnonzero(quarters * before > 0)
     both = np.tan(np.clip(quarters + before, -WIDEST, WIDEST))
-    flattest = np.argsort(corner_areas(outline.vertices))[:FLATTEST]
-    for k in dict.fromkeys([*within.tolist(), *flattest.tolist()]):
+    for k in dict.fromkeys([*within.tolist(), *flattest(outline.vertices)]):
         bulges, curved = outline.bulges.copy(), np.delete(outline.curved, k)
         if k in within:
             bulges[k - 1] = both[k]

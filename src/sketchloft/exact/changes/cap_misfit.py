@@ -8,7 +8,6 @@ import numpy as np
 
 from sketchloft.cloud import Floats, Ints
 from sketchloft.exact.changes.misfit import BANDS, CHANCE, FEWEST
-from sketchloft.exact.fit.motion import Bools
 from sketchloft.exact.model.exact_model import ExactModel
 from sketchloft.stack import THIN, Run, section_boundary
 
@@ -51,14 +50,13 @@ class _Face:
     low: Floats
     high: Floats
 
-    def holds(self, places: Floats, margin: float) -> Bools:
-        """Whether places (m, 2) lie on it, so far from the walls."""
-        below, above = self.beside
-        under, over = self.height - THIN, self.height + THIN
-        return np.asarray(
-            (_within(below, places, under, margin) & ~_within(above, places, over, -margin))
-            | (_within(above, places, over, margin) & ~_within(below, places, under, -margin))
+    def depth(self, places: Floats) -> Floats:
+        """How far (m,) places (m, 2) on it are from its rim, negative off it."""
+        below, above = (
+            _depth(run, places, z)
+            for run, z in zip(self.beside, (self.height - THIN, self.height + THIN), strict=True)
         )
+        return np.maximum(np.minimum(below, -above), np.minimum(above, -below))
 
     def patch(self, places: Floats) -> Ints:
         """Which patch (m,) places belong to."""
@@ -79,14 +77,14 @@ def _face(model: ExactModel, k: int) -> _Face:
     return _Face(height, beside, corners.min(axis=0), corners.max(axis=0))
 
 
-def _within(run: Run | None, places: Floats, height: float, margin: float) -> Bools:
-    """Whether places lie in a run's section, so far from its walls."""
+def _depth(run: Run | None, places: Floats, height: float) -> Floats:
+    """How far (m,) places (m, 2) in a run's section are from its walls, negative outside."""
     if run is None:
-        return np.zeros(len(places), dtype=bool)
+        return np.full(len(places), -np.inf)
     at = np.column_stack([places, np.full(len(places), height)])
     depth = np.array([-run.sign(i) * wall.foot(at).distance for i, wall in enumerate(run.walls)])
     outer = len(run.walls) - run.holes
-    return np.asarray((depth[:outer] > margin).any(axis=0) & (depth[outer:] > margin).all(axis=0))
+    return np.asarray(np.minimum(depth[:outer].max(axis=0), depth[outer:].min(axis=0, initial=np.inf)))
 
 
 def _of_face(points: Floats, model: ExactModel, face: _Face, together: float) -> Floats:
@@ -94,17 +92,17 @@ def _of_face(points: Floats, model: ExactModel, face: _Face, together: float) ->
     steps = (np.arange(LATTICE) + 0.5) / LATTICE
     across = face.high - face.low
     lattice = face.low + np.stack(np.meshgrid(steps, steps), axis=-1).reshape(-1, 2) * across
+    widths = np.array(BANDS) * model.sigma
     away = np.abs(points[:, 2] - face.height)
+    near, away = points[away < widths.max(), :2], away[away < widths.max()]
+    patches, inner = face.patch(near), face.depth(near)
+    deep = face.depth(lattice)
+    per_width = model.density.at(np.column_stack([lattice, np.full(len(lattice), face.height)]))
+    per_width *= float(np.prod(across)) / LATTICE**2
     found: list[float] = []
-    for width in np.array(BANDS) * model.sigma:
-        covered = lattice[face.holds(lattice, width)]
-        at = np.column_stack([covered, np.full(len(covered), face.height)])
-        volumes = np.full(len(covered), width * float(np.prod(across)) / LATTICE**2)
-        expected = np.zeros(PATCHES**2)
-        np.add.at(expected, face.patch(covered), model.density.at(at) * volumes)
-        near = points[away < width][:, :2]
-        held = near[face.holds(near, width)]
-        counts = np.bincount(face.patch(held), minlength=PATCHES**2).astype(float)
+    for width in widths:
+        expected = width * np.bincount(face.patch(lattice), per_width * (deep > width), PATCHES**2)
+        counts = np.bincount(patches[(away < width) & (inner > width)], minlength=PATCHES**2).astype(float)
         full = expected > FEWEST
         found.append(_beyond_chance(counts[full], expected[full], together))
     return np.array(found)

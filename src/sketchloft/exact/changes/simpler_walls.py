@@ -15,7 +15,7 @@ from sketchloft.outline.circle import Circle
 from sketchloft.outline.ellipse import Ellipse
 from sketchloft.outline.outline import Outline
 from sketchloft.outline.placed_polygons import Rectangle, RegularPolygon, RoundedRectangle
-from sketchloft.outline.polygons import LineArc, Polygon, corner_areas
+from sketchloft.outline.polygons import LineArc, Polygon, flattest
 from sketchloft.outline.rectilinear import RectilinearPolygon, rectilinear_of, with_a_step_less
 from sketchloft.outline.rounded_polygon import RoundedPolygon
 from sketchloft.outline.simpler_chains import simpler_chains
@@ -179,7 +179,7 @@ def _of_fewer_numbers(outline: Outline) -> Iterator[Outline]:
 def _with_simpler_corners(outline: Outline) -> Iterator[Outline]:
     yield from _of_fewer_numbers(outline)
     if isinstance(outline, Polygon) and len(outline.vertices) > 3:
-        for k in _flattest(outline.vertices):
+        for k in flattest(outline.vertices):
             yield Polygon(np.delete(outline.vertices, k, axis=0))
         for corner in _without_chamfers(outline.vertices):
             yield Polygon(corner)
@@ -200,8 +200,3 @@ def _without_chamfers(vertices: Floats) -> Iterator[Floats]:
         corner = before + np.linalg.solve(along, end - before)[0] * (start - before)
         if np.linalg.norm(corner - start) < NEAR * lengths[k]:
             yield np.vstack([corner, ring[2:]])
-
-
-def _flattest(vertices: Floats) -> list[int]:
-    """The corners whose triangles with their neighbours are smallest, three at most."""
-    return [int(k) for k in np.argsort(corner_areas(vertices))[:3]]

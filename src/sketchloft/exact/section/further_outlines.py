@@ -63,7 +63,7 @@ def _attempt_fewer_corners(attempt: Attempt, tried: Tried, kind: type[Polygon | 
     if not found:
         return
     value, outline = max(found, key=lambda one: one[0])
-    while isinstance(outline, (Polygon, LineArc)) and (simpler := _simpler(outline)):
+    while isinstance(outline, kind) and (simpler := _simpler(outline)):
         gained = max(attempt(*simpler))
         if gained < value:
             return
